@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.open_water.incident_waves import Incidence, Plane
+from hydroelastic.fem.open_water.incident_waves import Circular, Incidence, Plane
 
 # Forces below this part of the largest, in units of the basin, are compared with that part.
 _NO_FORCE = 1e-4
@@ -147,14 +147,51 @@ class OpenResponse:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
         return self.potentials(self.motions)
 
-    def outgoing(self) -> np.ndarray:
-        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
-        return self._outgoing(self.motions, self.fluxes)
+    def outgoing(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident).
 
-    def _outgoing(self, motions: np.ndarray, scattered: np.ndarray) -> np.ndarray:
-        incidence = self.incidence
+        Args:
+            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+        """
+        incidence, scattered = self.incidence, self.fluxes
+        if motions is None:
+            motions = self.motions
+        else:
+            scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
         fluxes = incidence.pressures @ motions.T - incidence.own[:, self.incident] - scattered
         return incidence.amplitudes(fluxes) + incidence.incoming * np.eye(len(incidence.planes))[:, self.incident]
+
+    def ratios(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape
+        (incident, outgoing waves).
+
+        Args:
+            motions: see `outgoing`.
+        """
+        incidence = self.incidence
+        # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
+        phases = np.exp(1j * incidence.phases_at_origin(self.model.basin))
+        scaled = incidence.elevations * phases
+        found: np.ndarray = (self.outgoing(motions) * scaled[:, None] / scaled[self.incident]).T
+        return found
+
+    def partial_waves(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return aₙ of the elevation εₙ iⁿ [Jₙ(kr) + aₙ Hₙ(kr)] cos nθ about an axis, shape (incident, outgoing waves).
+
+        Args:
+            motions: see `outgoing`.
+        """
+        scattered: np.ndarray = self.ratios(motions) - self.incidence.incoming * np.eye(len(self.incident))
+        return scattered
+
+    def per_elevation(self, towards: int) -> np.ndarray:
+        """Return the factors of what is per c of each incident wave for a unit elevation with its phase at x = 0, of
+        waves towards +x (1) or −x (−1), shape (incident,); about an axis of the part of this order."""
+        incidence, basin = self.incidence, self.model.basin
+        phases = np.exp(1j * incidence.phases_at_origin(basin))
+        parts = [plane.part(towards, basin) if isinstance(plane, Circular) else 1.0 for plane in incidence.planes]
+        factors: np.ndarray = (np.array(parts) / (incidence.elevations * phases))[self.incident]
+        return factors
 
     def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return the mean force along x, of second order in the waves, per |c|² of each incident wave, dimensionless,
@@ -165,14 +202,14 @@ class OpenResponse:
         Longuet-Higgins 1977, Proc. R. Soc. Lond. A 352, 463).
 
         Args:
-            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+            motions: see `outgoing`.
         """
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.
             return np.zeros(len(self.incident))
         momenta = 0.5 * self.squared.real * self._towards * self._wavenumbers * self.incidence.powers
         # Waves that leave to the left push to the right.
-        force: np.ndarray = momenta[self.incident] - momenta @ np.abs(self._leaving(motions)) ** 2
+        force: np.ndarray = momenta[self.incident] - momenta @ np.abs(self.outgoing(motions)) ** 2
         return force
 
     def near_field_drift(self, incident: int = 0) -> float:
@@ -195,20 +232,13 @@ class OpenResponse:
             return np.zeros(len(self.incident))
         powers, towards = self.incidence.powers, self._towards
         incoming = powers[self.incident]
-        amplitudes = np.abs(self._leaving(motions))
+        amplitudes = np.abs(self.outgoing(motions))
         own, other = self._wavenumbers[self.incident], self._wavenumbers[:, None]
         arms = np.abs(own - np.outer(towards, towards[self.incident]) * other)
         waves = (2.0 * arms * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0)
         lost = np.abs(incoming - powers @ amplitudes**2)
         total: np.ndarray = (waves + 2.0 * own * lost) * error + own * incoming * np.abs(self.energy_residual())
         return 0.5 * self.squared.real * total
-
-    def _leaving(self, motions: np.ndarray | None) -> np.ndarray:
-        """`outgoing` with other motions than those of the response, if there are any."""
-        if motions is None:
-            return self.outgoing()
-        scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
-        return self._outgoing(motions, scattered)
 
     @property
     def _wavenumbers(self) -> np.ndarray:

@@ -7,8 +7,8 @@ from numpy.polynomial.legendre import leggauss, legvander
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import as_functions
-from hydroelastic.fem.open_water.curves import elevation_of
 from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
 from hydroelastic.fem.open_water.results import HullPressure
 from hydroelastic.fem.shape_loads import potential_basis
 
@@ -55,7 +55,7 @@ def _pressures(response: OpenResponse, index: int, incident: int) -> tuple[np.nd
         for function in as_functions(liquid, [pencil.vector(part) for part in (scattered.real, scattered.imag)])
     )
     plane = response.incidence.planes[response.incident[incident]]
-    per_elevation = response.squared / elevation_of(response, incident)
+    per_elevation = response.squared * response.per_elevation(RIGHTWARD)[incident]
     nodes, weights = leggauss(liquid.degree + 1)
     highest = (liquid.degree + 0.5) * weights * legvander(nodes, liquid.degree)[:, -1]
     places, values, rough = [np.zeros((0, 2))], [np.zeros(0, dtype=complex)], 0.0

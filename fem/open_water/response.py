@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import nan, pi
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.beam_loads import AlongBeam, BeamLoads
-from hydroelastic.fem.open_water.curves import elevation_of, refined_curves
+from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.incident_waves import Circular
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.outside import attachment_paths
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
@@ -72,7 +72,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = request.elevation, np.zeros_like(solver.model.mass)
-        incident = _incident(solver.model, request)
+        incident = incident_places(solver.model, request.waves_from)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
@@ -101,7 +101,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     if request.hull_pressures:
         table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
     if len(omegas) > FEW:
-        incident = _incident(model, request)
+        incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
         table = replace(
             table,
@@ -130,7 +130,7 @@ def _on_hulls(solutions: list[OpenResponse], errors: np.ndarray) -> dict[str, An
 
 def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
-    incident = _incident(solver.model, request)
+    incident = incident_places(solver.model, request.waves_from)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
@@ -139,12 +139,12 @@ def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTab
     return unresolved_peaks(table, solver.resonances_between(), between)
 
 
-def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
-    """Indices of the incident waves: those to the right are first."""
+def incident_places(model: OpenModel, waves_from: Literal["left", "right"]) -> list[int]:
+    """Return the indices of the incident waves from a side: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
-    if model.basin.tank.geometry.is_revolved:
+    if waves_from == "left" or model.basin.tank.geometry.is_revolved:
         return list(range(count))
-    return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
+    return list(range(count, 2 * count))
 
 
 def outcome(solution: OpenResponse) -> np.ndarray:
@@ -210,11 +210,11 @@ def _table(
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
-    waves = np.array([_waves(solution) for solution in solutions])
+    waves = np.array([solution.ratios() for solution in solutions])
     forward = first.incident
     back = [int(first.incidence.reversed[place]) for place in forward]
-    towards = 1 if request.waves_from == "left" else -1
-    motions = np.array([_motions(solution, towards) for solution in solutions])
+    towards = direction_of(request.waves_from)
+    motions = np.array([one.motions * one.per_elevation(towards)[:, None] for one in solutions])
     is_round = model.basin.tank.geometry.is_revolved
     return ResponseTable(
         omega=omegas,
@@ -226,9 +226,7 @@ def _table(
         amplitudes=model.scale.amplitudes(motions),
         reflection=None if is_round else waves[:, :, back],
         transmission=None if is_round else waves[:, :, forward],
-        partial_waves=(waves - first.incidence.incoming * np.eye(count))[..., None].astype(complex)
-        if is_round
-        else None,
+        partial_waves=np.array([one.partial_waves() for one in solutions])[..., None] if is_round else None,
         absorption=np.array([solution.absorption for solution in solutions]),
         drift_force=drift_forces(solutions),
         drift_error=drift_errors(solutions, errors),
@@ -237,17 +235,6 @@ def _table(
         plates=tuple(_plates(request, model, solutions, errors)),
         fields_at=request.fields_at,
     )
-
-
-def _waves(solution: OpenResponse) -> np.ndarray:
-    """Elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape (incident,
-    waves)."""
-    incidence = solution.incidence
-    # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
-    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    scaled = incidence.elevations * phases
-    ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
-    return ratios
 
 
 def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
@@ -270,21 +257,6 @@ def drift_errors(solutions: list[OpenResponse], errors: np.ndarray) -> np.ndarra
         for one, error in zip(solutions, errors, strict=True)
     ]
     return units.density * units.gravity * np.array(found)
-
-
-def _motions(solution: OpenResponse, towards: int) -> np.ndarray:
-    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns), of
-    waves towards +x (1) or −x (−1)."""
-    incidence = solution.incidence
-    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    parts = np.array(
-        [
-            plane.part(towards, solution.model.basin) if isinstance(plane, Circular) else 1.0
-            for plane in incidence.planes
-        ]
-    )
-    motions: np.ndarray = solution.motions * (parts / (incidence.elevations * phases))[solution.incident][:, None]
-    return motions
 
 
 def _plates(
@@ -320,14 +292,12 @@ def plate_deflection(
         errors: their relative errors, shape (n,).
     """
     units, start = model.basin.units, model.basin.tank.piece_of(index).start
-    elevations = np.array(
-        [[elevation_of(solution, number) for number in range(len(solution.incident))] for solution in solutions]
-    )
+    factors = np.array([one.per_elevation(RIGHTWARD) for one in solutions])
     weight = units.density * units.gravity * units.length
-    uneven = np.array([one.uneven for one in found]) / np.abs(elevations)[:, None] * errors[:, None, None]
+    uneven = np.array([one.uneven for one in found]) * np.abs(factors)[:, None] * errors[:, None, None]
     deflection, moment, shear = (
-        factor * np.array([getattr(one, name) for one in found]) / elevations[..., None]
-        for name, factor in (("deflection", 1.0), ("bending_moment", weight * units.length), ("shear_force", weight))
+        unit * np.array([getattr(one, name) for one in found]) * factors[..., None]
+        for name, unit in (("deflection", 1.0), ("bending_moment", weight * units.length), ("shear_force", weight))
     )
     return PlateDeflection(
         body=index,

@@ -9,25 +9,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import reduce
+from math import nan
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.beam_loads import BeamLoads
-from hydroelastic.fem.open_water.curves import Curves, certified_curves, elevation_of
+from hydroelastic.fem.open_water.curves import Curves, certified_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of, drift_of_orders
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import outcome, plate_deflection, response_errors
+from hydroelastic.fem.open_water.response import incident_places, outcome, plate_deflection, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import IRREGULAR
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
@@ -40,6 +47,8 @@ _CAUSES = ("sampling_error", "truncation_error", "transfer_error")
 _LOADS = ("deflection", "bending_moment", "shear_force")
 # How often all intervals between frequencies are halved for the sake of the moments.
 _HALVINGS = 3
+# Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
+_DRIFT = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,18 +69,39 @@ class SpectrumSolution:
 def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> SpectrumSolution:
     """Solve for the statistics of responses to irregular waves (collective).
 
+    The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
+    same frequencies in the end.
+
     Args:
         problem: the open water.
         request: spectrum, duration, points.
     """
+    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
+    curves = [one.result.at(omegas) for one in attempts]
+    table = _table(problem, request, curves)
+    beyond = table.largest_error("truncation_error")
+    if request.highest is None and beyond > _BEYOND * problem.tolerance:
+        # The energy beyond falls like ω⁻⁴.
+        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
+        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]))
+    return SpectrumSolution(
+        table=table,
+        model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
+        error=max(table.largest_error("relative_error"), *(one.error for one in attempts)),
+    )
+
+
+def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
+    """Transfer functions of one order over the band of the spectrum (collective)."""
     lowest, highest = request.band
     low, high = problem.shared_band(lowest, highest)
     band = Band(lowest=low, highest=high)
 
-    def solve(resolution: Resolution) -> Attempt[tuple[SpectrumTable, OpenModel]]:
+    def solve(resolution: Resolution) -> Attempt[Curves]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = 0.0, np.zeros_like(solver.model.mass)
-        incident = [0 if request.waves_from == "left" else len(solver.model.basin.scaled_layers.branches)]
+        incident = incident_places(solver.model, request.waves_from)[:1]
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
@@ -84,33 +114,24 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
                 places = _estimated(curves)
                 causes = [response_errors(curves.responses[place]) for place in places]
             total = np.array([cause.total.max() for cause in causes])
+            joined = joined_errors(causes, float(curves.errors.max()))
             # About a resonance they change by orders of magnitude.
             errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
-            table = _table(request, replace(curves, errors=errors))
+            curves = replace(curves, errors=errors)
+            if problem.tank.geometry.is_revolved:
+                return Attempt(result=curves, causes=joined, resolution=resolution)
+            table = _table(problem, request, [curves])
             if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
                 break
             omegas = curves.omegas
-        joined = joined_errors(causes, float(curves.errors.max()))
         units = solver.model.basin.units
         # The drift force of waves that are reflected in full.
         reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
-        drift = table.mean_drift_error / reflected
         # Waves that carry no energy need no accuracy.
-        own = max(table.largest_error("transfer_error"), drift)
-        return Attempt(
-            result=(table, solver.model),
-            causes=joined.scaled(own / joined.largest_total),
-            resolution=resolution,
-        )
+        own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
+        return Attempt(result=curves, causes=joined.scaled(own / joined.largest_total), resolution=resolution)
 
-    attempt = best_over_band(problem, band, solve)
-    table, model = attempt.result
-    beyond = table.largest_error("truncation_error")
-    if request.highest is None and beyond > _BEYOND * problem.tolerance:
-        # The energy beyond falls like ω⁻⁴.
-        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
-        return solve_spectrum(problem, replace(request, highest=wider * highest))
-    return SpectrumSolution(table=table, model=model, error=max(attempt.error, table.largest_error("relative_error")))
+    return best_over_band(problem, band, solve)
 
 
 def _estimated(curves: Curves) -> list[int]:
@@ -125,19 +146,22 @@ def _estimated(curves: Curves) -> list[int]:
     return sorted(found)
 
 
-def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
-    model, omegas = curves.solver.model, curves.omegas
+def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
+    models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
-    rows = _rows(model, request)
+    errors = np.max([one.errors for one in curves], axis=0)
+    rows = _rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
-    deviations = _deviation(model, curves, motions) @ np.abs(directions).T * np.abs(factors)
+    deviations = _deviation(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)
-    back = np.linalg.inv(model.scale.turn * model.scale.lengths[:, None])
-    unit = model.basin.units.density * model.basin.units.gravity * model.basin.units.length**3
-    drift, drift_error = _mean_drift(request, curves, motions)
+    order, dofs = _order_of(models)
+    units = models[0].basin.units
+    back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
+    unit = units.density * units.gravity * units.volume * units.length / units.frequency
+    drift, drift_error = _mean_drift(problem, request, curves, motions)
     return SpectrumTable(
         waves=request.words,
         waves_from=request.waves_from,
@@ -148,7 +172,7 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
         quantities=tuple(row.name for row in rows),
         transfer=transfer,
         response_density=np.abs(transfer) ** 2 * density[:, None],
-        relative_error=curves.errors,
+        relative_error=errors,
         responses=tuple(
             IrregularResponse(
                 quantity=row.name,
@@ -163,67 +187,166 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
             )
             for place, row in enumerate(rows)
         ),
-        dofs=model.scale.dofs,
+        dofs=dofs,
         mean_drift_force=drift,
         mean_drift_error=drift_error,
-        equivalent_damping=back.T @ damping @ back * (unit / model.basin.units.frequency),
-        plates=tuple(_plates(request, curves, motions, drag)),
+        mean_absorbed_power=_mean_power(request, curves, motions),
+        equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
+        # Sections alone have beams, and one order.
+        plates=tuple(_plates(request, curves[0], motions, drag)),
     )
 
 
-def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, its part of each drag, dimensionless, and the motions with it per elevation,
-    shape (n, unknowns)."""
-    model, outside = curves.solver.model, curves.solver.model.outside
-    equations = [response.equations for response in curves.responses]
-    dynamic = np.array([one.dynamic for one in equations])
-    (place,) = curves.responses[0].incident
-    elevations = np.array([elevation_of(response) for response in curves.responses])
-    forces = np.array([one.forces[place] for one in equations]) / elevations[:, None]
-    scaled = curves.omegas / model.basin.units.frequency
+def _order_of(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...]]:
+    """Return the places of the motions of all orders, body by body, and these motions."""
+    dofs = [dof for model in models for dof in model.scale.dofs]
+    order = sorted(range(len(dofs)), key=lambda place: dofs[place].body or 1)
+    return order, tuple(dofs[place] for place in order)
+
+
+def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the damping in place of drag, its part of each drag, dimensionless, and the motions of all orders with it
+    per elevation, shape (n, unknowns)."""
+    omegas, basin = curves[0].omegas, curves[0].solver.model.basin
+    outsides = [one.solver.model.outside for one in curves]
+    towards = direction_of(request.waves_from)
+    dynamic = np.array(
+        [
+            block_diag(*(response.equations.dynamic for response in responses))
+            for responses in zip(*(one.responses for one in curves), strict=True)
+        ]
+    )
+    forces = np.hstack(
+        [
+            [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses]
+            for own in curves
+        ]
+    )
+    paths = np.hstack([one.paths for one in outsides])
+    scaled = omegas / basin.units.frequency
+    whole = replace(outsides[0], paths=paths, damping=block_diag(*(one.damping for one in outsides)))
 
     def moved(damping: np.ndarray) -> np.ndarray:
-        whole = dynamic - 1j * scaled[:, None, None] * damping
-        motions: np.ndarray = np.linalg.solve(whole, forces[..., None])[..., 0]
+        motions: np.ndarray = np.linalg.solve(dynamic - 1j * scaled[:, None, None] * damping, forces[..., None])[..., 0]
         return motions
 
     def speeds(damping: np.ndarray) -> np.ndarray:
-        velocities = scaled[:, None] * (moved(damping) @ outside.paths.T)
-        deviations: np.ndarray = np.sqrt(moments(request.spectrum, curves.omegas, velocities, (0,))[0])
-        return deviations / model.basin.units.length
+        velocities = scaled[:, None] * (moved(damping) @ paths.T)
+        deviations: np.ndarray = np.sqrt(moments(request.spectrum, omegas, velocities, (0,))[0])
+        return deviations / basin.units.length
 
-    damping = outside.equivalent_damping(speeds, IRREGULAR) if len(outside.drag) else np.zeros_like(model.mass)
-    return damping, IRREGULAR * outside.drag * speeds(damping), moved(damping)
+    damping = whole.equivalent_damping(speeds, IRREGULAR) if len(whole.drag) else np.zeros_like(whole.damping)
+    return damping, IRREGULAR * whole.drag * speeds(damping), moved(damping)
 
 
-def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -> tuple[float, float]:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its estimated error, N/m.
+def _mean_drift(
+    problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray
+) -> tuple[float, float]:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
+
+    Args:
+        problem: the open water.
+        request: the request.
+        curves: the transfer functions of the orders that move.
+        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
+    """
+    omegas, towards = curves[0].omegas, direction_of(request.waves_from)
+    starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
+    # Motions per c of the incident wave.
+    parts = [
+        [
+            row[None] / one.per_elevation(towards)[0]
+            for row, one in zip(motions[:, first:last], own.responses, strict=True)
+        ]
+        for own, first, last in zip(curves, starts, starts[1:], strict=False)
+    ]
+    if problem.tank.geometry.is_revolved:
+        if len(curves[0].responses[0].incidence.planes) > 1:
+            return nan, nan
+        known = {
+            order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
+            for order, own, each in zip(problem.tank.orders, curves, parts, strict=True)
+        }
+        forces, errors = _drift_of_orders(
+            problem,
+            request,
+            omegas,
+            known,
+            {order: own.errors for order, own in zip(problem.tank.orders, curves, strict=True)},
+        )
+    else:
+        units = curves[0].solver.model.basin.units
+        forces, errors = (
+            units.density
+            * units.gravity
+            * np.array(
+                [
+                    np.hstack([one.drift_force(part), one.drift_error(float(error), part)])
+                    * abs(one.per_elevation(towards)[0]) ** 2
+                    for one, part, error in zip(curves[0].responses, parts[0], curves[0].errors, strict=True)
+                ]
+            ).T
+        )
+    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
+    roots = np.sqrt(np.abs(forces))[:, None]
+    deviations = np.sqrt(roots**2 + errors[:, None]) - roots
+    told = statistics(request.spectrum, omegas, roots, deviations, request.duration)
+    # Short waves are reflected: the force beyond is as at the end, and changes no more than up to there.
+    tail, last = 2.0 * request.spectrum.tail(omegas[-1], 0), np.abs(forces[omegas >= _LAST * omegas[-1]])
+    within = 2.0 * float(told.moments[0, 0])
+    # Of an amplitude, the relative error is half of that of its square.
+    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + tail * float(np.ptp(last))
+    return towards * (within + tail * float(last[-1])), error
+
+
+def _drift_of_orders(
+    problem: OpenWaterProblem,
+    request: SpectrumRequest,
+    omegas: np.ndarray,
+    known: dict[int, np.ndarray],
+    certain: dict[int, np.ndarray],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
+    (collective).
+
+    Orders are added until one scatters no more of the spectrum than `_DRIFT`.
+    """
+    waves: list[np.ndarray] = []
+    errors: list[np.ndarray] = []
+    density = request.spectrum.density(omegas)
+    # Nothing moves in the others, and no other analysis asks for them.
+    fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _DRIFT))
+    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
+        order = len(waves)
+        if order in known:
+            waves.append(known[order][:, 0])
+            errors.append(certain[order])
+            continue
+        own = _curves(fixed.of_order(order), request).result.at(omegas)
+        chosen = np.searchsorted(own.omegas, omegas)
+        waves.append(np.array([own.responses[place].partial_waves()[0, 0] for place in chosen]))
+        errors.append(own.errors[chosen])
+    layers = two_layers(problem.tank)
+    wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
+    found, uncertain = np.array(waves).T, np.array(errors).T
+    return drift_of_orders(problem.tank, omegas, wavenumbers, found, uncertain, np.zeros_like(uncertain))
+
+
+def _mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:
+    """Mean power that the linear damping of attachments takes, ∫ ω² aᴴBa S dω, W/m or of solids W.
 
     Args:
         request: the request.
-        curves: the transfer functions.
+        curves: the transfer functions of the orders that move.
         motions: per elevation, with the damping in place of drag, shape (n, unknowns).
     """
-    units = curves.solver.model.basin.units
-    forces, errors = np.empty((2, len(motions)))
-    for place, (one, motion) in enumerate(zip(curves.responses, motions, strict=True)):
-        elevation = elevation_of(one)
-        moved = (elevation * motion)[None]
-        forces[place] = one.drift_force(moved)[0] / abs(elevation) ** 2
-        errors[place] = one.drift_error(float(curves.errors[place]), moved)[0] / abs(elevation) ** 2
-    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
-    roots = np.sqrt(np.abs(forces))[:, None]
-    told = statistics(
-        request.spectrum, curves.omegas, roots, np.sqrt(roots**2 + errors[:, None]) - roots, request.duration
-    )
-    # Short waves are reflected: the force beyond is as at the end, and changes no more than up to there.
-    unit, tail = 2.0 * units.density * units.gravity, request.spectrum.tail(curves.omegas[-1], 0)
-    last = np.abs(forces[curves.omegas >= _LAST * curves.omegas[-1]])
-    within = unit * float(told.moments[0, 0])
-    mean = within + unit * tail * last[-1]
-    # Of an amplitude, half of that of its square.
-    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + unit * tail * float(np.ptp(last))
-    return mean if request.waves_from == "left" else -mean, error
+    models, omegas = [one.solver.model for one in curves], curves[0].omegas
+    damping = block_diag(*(model.outside.damping for model in models))
+    units = models[0].basin.units
+    values, vectors = np.linalg.eigh(damping)
+    speeds = omegas[:, None] * (motions @ vectors)
+    taken = float(moments(request.spectrum, omegas, speeds, (0,))[0] @ np.maximum(values, 0.0))
+    return units.density * units.gravity * units.volume / units.length / units.frequency * taken
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -236,21 +359,18 @@ class _Row:
     is_acceleration: bool = False
 
 
-def _rows(model: OpenModel, request: SpectrumRequest) -> list[_Row]:
+def _rows(models: list[OpenModel], request: SpectrumRequest) -> list[_Row]:
     """Motions of rigid bodies, and motions and accelerations of points."""
-    scale, elastic = model.scale, model.basin.tank.elastic
-    motions = scale.turn * scale.lengths[:, None] / model.basin.units.length
+    elastic, length = models[0].basin.tank.elastic, models[0].basin.units.length
+    motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
+    order, dofs = _order_of(models)
     rows = [
-        _Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motion.astype(complex))
-        for dof, motion in zip(scale.dofs, motions, strict=True)
+        _Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motions[place].astype(complex))
+        for place, dof in zip(order, dofs, strict=True)
         if (dof.body or 1) - 1 not in elastic
     ]
-    starts = np.cumsum([0, *(body.size for body in model.pencil.bodies)])
     for number, (index, point) in enumerate(request.points, 1):
-        moved = np.zeros((3, starts[-1]), dtype=complex)
-        moved[:, starts[index] : starts[index + 1]] = displacement_at(
-            model.basin, model.pencil.bodies[index], index, point
-        )
+        moved = np.hstack([_moved(model, index, point) for model in models])
         rows.append(_Row(name=f"point {number} up", unit="m", direction=moved[0]))
         if index not in elastic:
             rows.append(_Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
@@ -258,12 +378,20 @@ def _rows(model: OpenModel, request: SpectrumRequest) -> list[_Row]:
     return rows
 
 
-def _deviation(model: OpenModel, curves: Curves, motions: np.ndarray) -> np.ndarray:
+def _moved(model: OpenModel, index: int, point: tuple[float, float]) -> np.ndarray:
+    """Heave, sway and rotation of a point of a body by a unit of each body unknown, shape (3, unknowns)."""
+    starts = np.cumsum([0, *(body.size for body in model.pencil.bodies)])
+    moved = np.zeros((3, starts[-1]), dtype=complex)
+    moved[:, starts[index] : starts[index + 1]] = displacement_at(model.basin, model.pencil.bodies[index], index, point)
+    return moved
+
+
+def _deviation(models: list[OpenModel], errors: np.ndarray, motions: np.ndarray) -> np.ndarray:
     """Errors of the motions per elevation, shape (n, unknowns): relative to the largest of the same unit."""
-    turns = np.array([dof.is_rotation for dof in model.scale.dofs])
+    turns = np.array([dof.is_rotation for model in models for dof in model.scale.dofs])
     sizes = np.abs(motions)
     largest = np.stack([sizes[:, turns == turn].max(axis=1) for turn in turns], axis=1)
-    deviation: np.ndarray = curves.errors[:, None] * largest
+    deviation: np.ndarray = errors[:, None] * largest
     return deviation
 
 
@@ -276,7 +404,7 @@ def _plates(
         x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
         along = BeamLoads(model, index, x)
         found = [
-            along.of(one, (elevation_of(one) * motion)[None], drag[None])
+            along.of(one, motion[None] / one.per_elevation(RIGHTWARD)[0], drag[None])
             for one, motion in zip(curves.responses, motions, strict=True)
         ]
         plate = plate_deflection(model, index, x, curves.responses, found, curves.errors)

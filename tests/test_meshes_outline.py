@@ -73,7 +73,7 @@ ENDS = ((0.3, 0.0), (0.7, 0.0))
 # Both sides of what is cut open count.
 CASES = {
     "two liquids": Case(
-        two_liquids(left=[(1.0, INTERFACE)]), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0} | walls(), smallest_angle=27.0
+        two_liquids(left=[(1.0, INTERFACE)]), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0} | walls(), smallest_angle=24.0
     ),
     "beam": Case(
         two_liquids(left=BEAM_PIECES, rings=ENDS), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 1.2, BEAM: 0.8} | walls()

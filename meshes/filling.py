@@ -88,6 +88,8 @@ def gmsh_model() -> Iterator[None]:
     gmsh.model.add("tank")
     try:
         yield
+    except MeshError:
+        raise
     except Exception as error:  # gmsh raises bare Exception
         # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()

@@ -45,7 +45,7 @@ def build_pencil(
     """
     laplace = matrices.laplace
     layers = closed_layers(liquid)
-    load = _surface_load(liquid, matrices, bodies, surfaces) if layers else None
+    load = surface_fluxes(liquid, matrices, bodies, surfaces) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     pencil = coupled_pencil(
         liquid,
@@ -61,7 +61,7 @@ def build_pencil(
     return replace(pencil, answer=answered(pencil, _FEW))
 
 
-def _surface_load(
+def surface_fluxes(
     liquid: LiquidSpace, matrices: LiquidMatrices, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]
 ) -> np.ndarray:
     """∫q over all moving surfaces, owned entries (collective)."""

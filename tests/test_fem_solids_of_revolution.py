@@ -193,7 +193,7 @@ def test_a_deep_cylinder_scatters_as_one_that_stands_on_the_bed() -> None:
     assert table.drift_force[0, 0] == pytest.approx(0.6271746654 * DENSITY * GRAVITY * radius, rel=1e-4)
 
 
-@pytest.mark.slow_but("inf")
+@SLOW
 @pytest.mark.parametrize(
     ("depth", "power", "tail"),
     [

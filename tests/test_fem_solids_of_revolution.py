@@ -207,7 +207,11 @@ def test_a_released_cylinder_moves_as_it_must_in_the_end(depth: float, power: in
     """H of the waves that spread in two directions has p² ln p in deep water, and ln p over a bed."""
     times = (1.0, 4.0, 200.0)
     (table,) = solved(
-        [{"shape": "cylinder", "radius": 1.0, "draught": 0.5}], depth, 1e-5, DecayRequest(heave=1.0, times=times), motions=("heave",)
+        [{"shape": "cylinder", "radius": 1.0, "draught": 0.5}],
+        depth,
+        1e-5,
+        DecayRequest(heave=1.0, times=times),
+        motions=("heave",),
     ).decay
     assert table.tail_power == power
     assert table.tail == pytest.approx(tail, rel=1e-9)

@@ -27,11 +27,15 @@ def draw_buoys(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
         panels = figure.subplots(1, len(buoys), sharex=True, sharey=True, squeeze=False).ravel()
         for panel, buoy in zip(panels, buoys, strict=True):
             for (code, variant), (style, words) in _STYLES.items():
-                series = [row for row in rows if (row.case.code, row.case.variant, row.case.tank) == (code, variant, buoy)]
+                series = [
+                    row for row in rows if (row.case.code, row.case.variant, row.case.tank) == (code, variant, buoy)
+                ]
                 if series:
                     plot_errors(panel, series, style, NAMES[code] + words)
             panel.set_title(buoy)
             label_axes(panel, "time from scene or panels to numbers, s", "", legend="")
         panels[0].set_ylabel("relative error of heave")
-        handles = {label: line for panel in panels for line, label in zip(*panel.get_legend_handles_labels(), strict=True)}
+        handles = {
+            label: line for panel in panels for line, label in zip(*panel.get_legend_handles_labels(), strict=True)
+        }
         figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2)

@@ -134,8 +134,8 @@ def bodies_of_tables(
     def matrix(values: np.ndarray) -> Floats:
         whole = np.zeros((*values.shape[:-2], count, count))
         for plane in (across, along):
-            whole[..., plane.places[:, None], plane.places] = width * values[..., plane.own[:, None], plane.own] * (
-                np.outer(plane.signs, plane.signs)
+            whole[..., plane.places[:, None], plane.places] = (
+                width * values[..., plane.own[:, None], plane.own] * (np.outer(plane.signs, plane.signs))
             )
         return whole
 

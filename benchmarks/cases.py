@@ -84,8 +84,8 @@ class Case:
             a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
             ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at
             rest ``relaxed`` or ``relaxed in motion``; the ``quarters`` of a tank in three dimensions,
-            or ``triangles`` on its plan, where the smallest model would be another; panels ``with lid`` or ``without lid``;
-            ``matched`` expansions.
+            or ``triangles`` on its plan, where the smallest model would be another; panels ``with lid`` or
+            ``without lid``; ``matched`` expansions.
         degree: polynomial degree, where it is chosen; else 0.
         tolerance: asked relative error, where it is chosen; else 0.
         panels: along a quarter of the circle, or from axis to water line, where they are chosen; else 0.
@@ -139,7 +139,8 @@ class Answer:
 
     Attributes:
         values: the lowest ω of a tank, rad/s, ascending; a', b' of heave and a', b' of sway of the circle;
-            displacements of the string at its points; a and b/ω of a buoy; forces on the ends of a thread, tensions, or places.
+            displacements of the string at its points; a and b/ω of a buoy; forces on the ends of a
+            thread, tensions, or places.
         unknowns: of ψ and of the surface, panels, unknowns of a string or a thread at rest, terms, or nodes of a
             thread that moves.
         stages: seconds by stage, as far as the code tells them.

@@ -12,8 +12,8 @@ from hydroelastic.benchmarks.basin.cases import basin_error
 from hydroelastic.benchmarks.buoy.cases import buoy_error
 from hydroelastic.benchmarks.cases import (
     BASIN_CODES,
-    CIRCLE_CODES,
     BUOY_CODES,
+    CIRCLE_CODES,
     STRING_CODES,
     SWEEP_CODES,
     THREAD_CODES,
@@ -35,7 +35,8 @@ class Row:
         case: what was solved.
         unknowns: as the answer says.
         error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, of the
-            displacements of the string relative to the largest one, of heave of a buoy, or that of a thread that `thread_error` tells.
+            displacements of the string relative to the largest one, of heave of a buoy, or that of a
+            thread that `thread_error` tells.
         seconds: of each round.
         stages: seconds by stage, median of the rounds.
         note: what else the code says.

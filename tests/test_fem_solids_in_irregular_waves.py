@@ -70,7 +70,7 @@ def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> Non
 
 
 def test_water_that_sloshes_in_a_gap_rings_on_in_the_impulse_response() -> None:
-    """The resonance of order 1 between a spar and a ring about it, which is before the ray, gives K most of its size."""
+    """The resonance of order 1 between a spar and a ring about it gives K most of its size."""
     spar = {"shape": "cylinder", "radius": 1.0, "draught": 2.0}
     ring = {"shape": "cylinder", "radius": 3.0, "inner_radius": 2.0, "draught": 0.5}
     request = ImpulseResponseRequest(times=(0.0, 10.0, 20.0))

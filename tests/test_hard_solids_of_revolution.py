@@ -1,4 +1,4 @@
-"""Hard cases of solids of revolution in the open sea, with true errors: from tighter solutions, references, theorems."""
+"""Hard cases of solids of revolution in the open sea, with true errors: by tighter solutions, references, theorems."""
 
 from __future__ import annotations
 

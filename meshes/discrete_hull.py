@@ -124,3 +124,4 @@ def _loops(curves: list[int]) -> list[list[int]]:
             loop.append(more)
         loops.append(loop)
     return loops
+

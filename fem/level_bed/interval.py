@@ -99,7 +99,7 @@ class IntervalSpace:
         points = self.degree + self.spare_points
         _, weights = self.quadrature(cells, points)
         table = _reference(self.degree, gauss(points)[0])
-        return self._assembled(cells, np.einsum("eq,iq,jq->eij", weights, table, table, optimize=True))
+        return self._assembled(cells, (weights[:, None, :] * table) @ table.T)
 
     @cached_property
     def mass(self) -> FloatArray:
@@ -118,9 +118,9 @@ class IntervalSpace:
         places, weights = self.quadrature(self.cells, points)
         table, slopes = (_reference(self.degree, gauss(points)[0], slope=slope) for slope in (False, True))
         along = weights * (2.0 / np.diff(self.nodes)[:, None]) ** 2
-        blocks = np.einsum("eq,iq,jq->eij", along, slopes, slopes, optimize=True)
         across = weights * self.transverse_squares(places)
-        return self._assembled(self.cells, blocks + np.einsum("eq,iq,jq->eij", across, table, table, optimize=True))
+        blocks = (along[:, None, :] * slopes) @ slopes.T + (across[:, None, :] * table) @ table.T
+        return self._assembled(self.cells, blocks)
 
     def _assembled(self, cells: np.ndarray, blocks: FloatArray) -> NDArray[np.float64]:
         whole = np.zeros((self.size + 1, self.size + 1))

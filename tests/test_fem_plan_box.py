@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
+from hydroelastic.fem.level_bed.interval import IntervalSpace
 from hydroelastic.fem.modes import count_below
 from hydroelastic.fem.plan.box import BoxSolution, solve_box
+from hydroelastic.fem.plan.box_resolution import graded_nodes
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Plate, Rectangle
 
@@ -127,3 +129,12 @@ def test_a_plate_a_millimetre_from_a_wall_keeps_its_tolerance() -> None:
     errors = omega / fine - 1.0
     # The largest one: of the lowest mode, 4e-10, the estimate shows a quarter.
     assert errors.max() < coarse.relative_errors[:8].max() < 1e-6
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_thin_layers_leave_long_waves_their_digits(odd: bool) -> None:
+    # The nodes beside 0.37 lie 1e-9 from it, where hats of neighbours would cancel: they left 1e-7.
+    nodes = graded_nodes(0.0, 1.0, (0.37,), largest=0.25, layers=13)
+    squares, _ = IntervalSpace(nodes=nodes, degree=10, zero_at_end=odd).waves
+    expected = np.pi * (np.arange(1, 6) - (0.5 if odd else 0.0))
+    np.testing.assert_allclose(np.sqrt(squares[int(not odd) :][:5]), expected, rtol=1e-12)

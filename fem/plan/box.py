@@ -16,7 +16,7 @@ from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.released import released_box_pencil
-from hydroelastic.fem.plan.truncation import rectangle_energies
+from hydroelastic.fem.plan.truncation import finer_count, rectangle_energies
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
@@ -54,7 +54,9 @@ class BoxModel:
         self, resolution: BoxResolution, one: SymmetryClass, plates: tuple[RectangleBody, ...], modes: list[Mode]
     ) -> np.ndarray:
         """See `ClassModel.errors`: by the liquid and by the plates."""
-        return np.array([_liquid_errors(self.tank, resolution, one, plates, modes), _plate_errors(plates, modes)])
+        return np.array(
+            [_liquid_errors(self.tank, resolution, one, plates, modes), _plate_errors(self.tank, one, plates, modes)]
+        )
 
     def refined(self, resolution: BoxResolution, errors: np.ndarray, tolerance: float) -> BoxResolution | None:
         """See `ClassModel.refined`."""
@@ -241,13 +243,22 @@ def _liquid_errors(
     return _SAFETY * 0.5 * np.abs((loads * answers).sum(axis=1) - added)
 
 
-def _plate_errors(bodies: tuple[RectangleBody, ...], modes: list[Mode]) -> np.ndarray:
+def _plate_errors(
+    tank: LevelTank, one: SymmetryClass, bodies: tuple[RectangleBody, ...], modes: list[Mode]
+) -> np.ndarray:
     """Relative error of ω from the energy that the plates' polynomials lack."""
-    errors = np.zeros(len(modes))
-    first = 0
+    assert isinstance(tank.plan, Box)
+    values = np.array([mode.eigenvalue for mode in modes])
+    potentials = np.array([mode.potential.array_r for mode in modes])
+    errors, first = np.zeros(len(modes)), 0
     for body in bodies:
         last = first + body.body.size
-        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
-        errors += rectangle_energies(body, amplitudes)
+        if body.plate.is_elastic and body.body.size and modes:
+            amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes])
+            finer = rectangle_body(
+                tank.plan, body.index, body.plate, finer_count(body.coefficients.shape[1]), one.parity
+            )
+            pressures = potentials @ plate_loads(one.pencil.liquid, finer, finer.coefficients).T
+            errors += rectangle_energies(body, finer, amplitudes, values, pressures)
         first = last
-    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])
+    return 0.5 * errors / values

@@ -161,9 +161,7 @@ def box_pencil(
     return replace(pencil, answer=LiquidAnswer(potentials=potentials, added_mass=coupling.T @ potentials))
 
 
-def plate_loads(
-    liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def plate_loads(liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return ∫φ q over a plate and its images for functions φ, shape (functions, N).
 
     Args:
@@ -212,9 +210,7 @@ def water_columns(masses: list[tuple[NDArray[np.float64], NDArray[np.float64]]])
     return np.flatnonzero(sum(np.outer(*(np.diagonal(mass) for mass in pair)) for pair in masses))
 
 
-def _water(
-    liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
-) -> tuple[sparse.csr_matrix, sparse.csr_matrix] | None:
+def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> tuple[sparse.csr_matrix, sparse.csr_matrix] | None:
     """S on the unknowns that are not zero on the water: columns of it, and their rows alone."""
     masses = water_masses(liquid, plates)
     if not masses:

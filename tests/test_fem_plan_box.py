@@ -10,9 +10,10 @@ import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
 from hydroelastic.fem.level_bed.interval import IntervalSpace
-from hydroelastic.fem.modes import count_below
-from hydroelastic.fem.plan.box import BoxSolution, solve_box
-from hydroelastic.fem.plan.box_resolution import graded_nodes
+from hydroelastic.fem.modes import count_below, solve_modes
+from hydroelastic.fem.plan.box import BoxModel, BoxSolution, solve_box
+from hydroelastic.fem.plan.box_resolution import BoxResolution, graded_nodes
+from hydroelastic.fem.plan.classes import SymmetryClass
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Plate, Rectangle
 
@@ -138,3 +139,22 @@ def test_thin_layers_leave_long_waves_their_digits(odd: bool) -> None:
     squares, _ = IntervalSpace(nodes=nodes, degree=10, zero_at_end=odd).waves
     expected = np.pi * (np.arange(1, 6) - (0.5 if odd else 0.0))
     np.testing.assert_allclose(np.sqrt(squares[int(not odd) :][:5]), expected, rtol=1e-12)
+
+
+def test_the_error_of_a_clamped_plate_is_that_of_more_polynomials() -> None:
+    # The energy in the last polynomials shows 0.1 of it, beside corners between a clamped and a free edge.
+    outline = Rectangle(position=(2.5, 2.0), size=(5.0, 1.5))
+    plate = Plate(outline=outline, flexural_rigidity=1.0, mass_per_area=20.0, edge="clamped")
+    tank = LevelTank(plan=Box(length=10.0, width=4.0), depth=0.5, plates=(plate,), **WATER).scaled()
+    model, coarse = BoxModel(tank=tank), BoxResolution(degree=5, largest=0.1, layers=1, polynomials=(12,))
+    values = []
+    for resolution in (coarse, replace(coarse, polynomials=(26,))):
+        pencil, plates = model.problem(resolution, (None, 0))
+        assert pencil is not None
+        modes = solve_modes(pencil, 4, shapes=0)
+        values.append(modes.eigenvalues[:4])
+        if resolution is coarse:
+            one = SymmetryClass(parity=(None, 0), pencil=pencil, modes=modes)
+            _, estimates = model.errors(resolution, one, plates, [modes.completed(place) for place in range(4)])
+    errors = 0.5 * (values[0] / values[1] - 1.0)
+    assert errors.max() < estimates.max() < 4.0 * errors.max()

@@ -11,11 +11,6 @@ from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, Pressures
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 
-# Of the energy in the last polynomials, the part that the others do not take over if those are left out; measured:
-# 1/13 to 1/18.
-_REARRANGED = 0.25
-# The same where waves are just resolved, and the decay above which corners limit it.
-_RESOLVED, _SLOW = 0.8, 0.5
 # Slowest decay of the energy with two more polynomials along each side.
 _SLOWEST = 0.6
 # Least power of the number of polynomials with which the energy falls: at corners between a clamped and a free edge.
@@ -32,13 +27,11 @@ def geometric_tail(last: NDArray[np.float64], before: NDArray[np.float64]) -> ND
 def missing_after(last: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the energy that a basis lacks, from that in its last polynomials and in those before them.
 
-    Where corners limit the decay, it is a part of the remainder of the series. Where the polynomials just resolve a
-    wave the energy falls at once, and with a few fewer of them the others take over nothing: it is that of the last
-    ones, measured on a plate as soft as D/(ρgl⁴) = 2e-7.
+    Where corners limit the decay, it is the remainder of the series. Where the polynomials just resolve a wave the
+    energy falls at once, and with a few fewer of them the others take over nothing: it is no less than that of the last
+    ones.
     """
-    decay = last / np.maximum(before, np.finfo(float).tiny)
-    at_once = _RESOLVED * last * np.clip((_SLOW - decay) / (0.5 * _SLOW), 0.0, 1.0)
-    missing: NDArray[np.float64] = np.maximum(_REARRANGED * geometric_tail(last, before), at_once)
+    missing: NDArray[np.float64] = np.maximum(geometric_tail(last, before), last)
     return missing
 
 

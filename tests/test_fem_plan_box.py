@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
+from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.interval import IntervalSpace
-from hydroelastic.fem.modes import count_below, solve_modes
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.box import BoxModel, BoxSolution, solve_box
 from hydroelastic.fem.plan.box_resolution import BoxResolution, graded_nodes
 from hydroelastic.fem.plan.classes import SymmetryClass

@@ -18,7 +18,8 @@ from petsc4py import PETSc
 from scipy import sparse
 
 from hydroelastic.fem.level_bed.interval import IntervalSpace
-from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, SurfaceBlocks, coupled_pencil
+from hydroelastic.fem.liquid_answer import liquid_answer
+from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.meshes.geometry import FREE_SURFACE
@@ -158,7 +159,8 @@ def box_pencil(
         return pencil
     coupling = sparse.hstack([*loads, *([water[0]] if water else [])], format="csr")
     potentials = liquid.answer(coupling.T.toarray().reshape(-1, *liquid.shape)).reshape(-1, liquid.size).T
-    return replace(pencil, answer=LiquidAnswer(potentials=potentials, added_mass=coupling.T @ potentials))
+    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.stiffness, pencil.body_size)
+    return replace(pencil, answer=answer)
 
 
 def plate_loads(liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:

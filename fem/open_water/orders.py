@@ -131,9 +131,16 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
     peaks = [peak for table in tables for peak in table.missed_peaks]
     first = tables[0]
     if len(first.waves) > 1:
-        drift = np.full(len(first.omega), np.nan)
+        drift, drift_error = np.full((2, len(first.omega)), np.nan)
     else:
-        drift = drift_of_orders(problem.tank, first.omega, first.wavenumbers[:, 0], waves[:, 0, 0])
+        drift, drift_error = drift_of_orders(
+            problem.tank,
+            first.omega,
+            first.wavenumbers[:, 0],
+            waves[:, 0, 0],
+            np.array([table.relative_error for table in tables]).T,
+            np.array([table.energy_residual[:, 0] for table in tables]).T,
+        )
         drift = direction_of(first.waves_from) * drift
     return replace(
         first,
@@ -141,6 +148,7 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=waves,
         drift_force=drift[:, None],
+        drift_error=drift_error[:, None],
         absorption=np.sum(
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),

@@ -91,7 +91,8 @@ class OpenSolver:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
         with self._watch.stage("reduce"):
             projected = self._known_loads().projected
-            return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
+            found = [projected @ self._reduced.solve(square, projected).T for square in squares]
+            return np.array(found).reshape(len(found), len(projected), len(projected))
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """Return H at λ on the basis, shape (body unknowns, body unknowns), and a relative residual (collective).

@@ -16,9 +16,9 @@ def import_matplotlib() -> None:
 
     # It inspects all methods of each class, and is called for each from `Artist.__init_subclass__` on.
     kept = artist.kwdoc
-    artist.kwdoc = lambda _class: ""
+    setattr(artist, "kwdoc", lambda _class: "")  # noqa: B010
     try:
         import matplotlib.backends.backend_agg
         import matplotlib.figure  # noqa: F401
     finally:
-        artist.kwdoc = kept
+        setattr(artist, "kwdoc", kept)  # noqa: B010

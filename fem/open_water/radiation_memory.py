@@ -185,7 +185,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
                 start=masses(fast.coefficients[0]) * band.highest**2,
                 quickest=band.highest,
                 poles=np.conj(-1j * resonances * unit),
-                residues=np.array([masses(one) for one in residues.conj()]).reshape(-1, *limit.shape) * unit**2,
+                residues=np.array([masses(one) for one in residues.conj()], dtype=complex).reshape(-1, *limit.shape)
+                * unit**2,
             )
         found = _Found(
             memory=memory,

@@ -191,7 +191,7 @@ def bodies_of_tables(
 
 
 class _Plane:
-    """The motions in a vertical plane: their indices `own` among all, their `places` among six of each body, `signs`."""
+    """The motions in a vertical plane: their indices `own` among all, `places` among six of each body, and `signs`."""
 
     def __init__(self, dofs: tuple[Dof, ...], motions: dict[str, tuple[int, float]]) -> None:
         self.own = np.array([place for place, dof in enumerate(dofs) if dof.motion in motions], dtype=int)

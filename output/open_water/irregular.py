@@ -10,7 +10,7 @@ from hydroelastic.output.quantities import Group, Quantity
 _CURVE = "spectrum_omega spectrum_quantity"
 def _load_error(key: str, words: str, symbol: str) -> Quantity:
     return Quantity(
-        f"{key}_error", f"estimated error of the significant {words}", "1", short=f"error {symbol}", shown=".0e",
+        f"{key}_error", f"estimated error of the significant {words}", "1", short=f"error {symbol}", shown=".0e", printed=False,
         value=lambda it: it.relative_errors[key], note="relative to the largest along it",
     )
 
@@ -75,6 +75,8 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
             shown=".4g",
             value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
             note="`null` without a thickness"),
+        Quantity("relative_error", "largest estimated error of these, relative to the largest along the beam", "1",
+            short="error", shown=".0e"),
         _load_error("bending_moment", "bending moment", "M"),
         _load_error("shear_force", "shear force", "Q"),
         _load_error("deflection", "deflection", "w"),

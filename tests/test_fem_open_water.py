@@ -174,7 +174,7 @@ def test_reduced_basis_meets_what_it_was_given(name: str, request: pytest.Fixtur
     error = np.abs(between.hydrodynamic - exact.hydrodynamic).max() / scale
     # Second order: forces err like the square of the residual, up to a factor that the sweep measures.
     assert 0.0 < error <= 30.0 * residual**2 + 1e-12
-    assert between.diffraction_force == pytest.approx(exact.diffraction_force, abs=1e-2 * residual * scale + 1e-9)
+    assert between.diffraction_force == pytest.approx(exact.diffraction_force, abs=2e-2 * residual * scale + 1e-9)
 
 
 def test_basis_takes_no_vector_twice(rectangle: OpenModel) -> None:

@@ -155,6 +155,8 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),
+        # Each order has a curve at frequencies of its own; drawn are those that were asked for.
+        curve=None,
     )
 
 
@@ -208,7 +210,7 @@ def _solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolut
         displacement=_by_dof(dofs, [(one.dofs, one.displacement) for one in tables]),
         initial=_by_dof(dofs, [(one.dofs, one.initial) for one in tables]),
         absolute_error=np.max([one.absolute_error for one in tables], axis=0),
-        tail=None,
+        tail=tables[0].tail if len(tables) == 1 else None,
         certified_until=min(one.certified_until for one in tables),
     )
     return replace(_largest(found), table=table, error=_error(found), solved=sum(one.solved for one in found))

@@ -226,7 +226,8 @@ class DecayTable:
         displacement: (n, m) m or rad.
         initial: (m,) the displacement at t = 0, m or rad.
         absolute_error: (n,) estimated error of the displacement, m or rad.
-        tail: T of the tail T/t² of the released motion, m s² or rad s²; None where no tail is known.
+        tail: T of the tail T/tⁿ of the released motion, m sⁿ or rad sⁿ; None where no tail is known.
+        tail_power: n, 2, or 4 about an axis in deep water.
         certified_until: the time to which the error holds, s.
     """
 
@@ -237,6 +238,7 @@ class DecayTable:
     absolute_error: Floats
     tail: float | None
     certified_until: float
+    tail_power: int = 2
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -346,8 +346,10 @@ DECAY = Group("decay", "motion after release, by analysis", (
     joined_array("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
     joined_array("absolute_error", "estimated error of the motion after release", "time",
         variable="decay_absolute_error", shown=".1e", **_MOTION),
-    joined_array("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
-        of_roll=("rad s^2",), note="`null` where no tail is known"),
+    joined_array("tail", "asymptotic coefficient of 1/t^2, or of 1/t^4 if that is `tail_power`", "",
+        variable="decay_tail", unit="m s^2", of_roll=("rad s^2",), note="`null` where no tail is known"),
+    joined_array("tail_power", "power of the tail: 4 about an axis in deep water, else 2", "", unit="1",
+        variable="decay_tail_power"),
     joined_array("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
 ), dimension="decay_analysis", note=NUMBERED)

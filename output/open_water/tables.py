@@ -237,7 +237,8 @@ def _decay(table: DecayTable) -> Section:
         )
         for row in shown
     ]
-    tail = f"The released motion decays asymptotically like {table.tail or 0.0:.6g}/t², t in seconds."
+    power = "⁴" if table.tail_power == 4 else "²"
+    tail = f"The released motion decays asymptotically like {table.tail or 0.0:.6g}/t{power}, t in seconds."
     return Section(
         title="Motion after release",
         headings=(*headings_of([time, *motions], "dof"), f"error, {' or '.join(sorted(units))}"),

@@ -42,14 +42,14 @@ def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -
     open_ = ~np.isin(number, tagged[cut])
     part = _parts(mesh.cells, places, number, open_)
     # The first part around a node keeps its number.
-    _, first, part = np.unique(part, return_index=True, return_inverse=True)
+    _, first, places_of_parts = np.unique(part, return_index=True, return_inverse=True)
     nodes = mesh.cells.ravel()[first]
     order = np.lexsort((first, nodes))
     again = np.zeros(len(order), dtype=bool)
     again[order[1:]] = nodes[order[1:]] == nodes[order[:-1]]
     numbers = nodes.copy()
     numbers[again] = len(mesh.points) + np.arange(np.count_nonzero(again))
-    cells = numbers[part].reshape(mesh.cells.shape)
+    cells = numbers[places_of_parts].reshape(mesh.cells.shape)
     tags = np.full(len(faces), -1)
     left = np.isin(mesh.facet_tags, [number for name, number in mesh.facet_names.items() if name in kept]) | ~cut
     tags[tagged[left]] = mesh.facet_tags[left]
@@ -113,10 +113,12 @@ def _parts(
     """The part around its node of each node of each cell, shape (cells times nodes,)."""
     corner = np.arange(cells.size).reshape(cells.shape)
     sides = np.broadcast_to(faces[:, :, None], (len(cells), *places.shape))[open_]
-    ends, linked = cells[:, places][open_], corner[:, places][open_]
-    key = (sides * (int(cells.max()) + 1) + ends).ravel()
+    ends: NDArray[np.int64] = cells[:, places][open_].ravel()
+    linked: NDArray[np.int64] = corner[:, places][open_].ravel()
+    key = sides.ravel() * (int(cells.max()) + 1) + ends
     order = np.argsort(key, kind="stable")
-    key, linked = key[order], linked.ravel()[order]
+    key = key[order]
+    linked = linked[order]
     same = key[1:] == key[:-1]
     one, other = linked[:-1][same], linked[1:][same]
     links = coo_array((np.ones(len(one), np.int8), (one, other)), shape=(cells.size, cells.size))

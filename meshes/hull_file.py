@@ -58,11 +58,12 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
     if not low < level <= high + 1e-9 * (high - low):
         raise MeshError(f"the still level, z = {level:g} m of {file}, is not between its lowest and highest point")
     found, corners = hydrostatics_at(file, level)
+    least, most = ((float(place[0]), float(place[1]), float(place[2])) for place in corners)
     return WettedHull(
         file=file,
         level=level,
-        low=tuple(map(float, corners[0])),
-        high=tuple(map(float, corners[1])),
+        low=least,
+        high=most,
         hydrostatics=found,
         symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
     )
@@ -131,9 +132,7 @@ def triangles_of(file: Path, _changed: int) -> Triangles:
         raise MeshError(f"{file} holds no triangles")
     order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     order[tags.astype(np.int64)] = np.arange(len(tags))
-    points, numbers = np.unique(
-        np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True
-    )
+    points, numbers = np.unique(np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True)
     triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
     return Triangles(points=points, corners=triangles[distinct])
@@ -199,7 +198,9 @@ def immersed(solid: _Entities, level: float) -> _Entities:
     occ = gmsh.model.occ
     left, front, low, right, back, _ = occ.getBoundingBox(*solid[0])
     pad = right - left + back - front
-    box = occ.addBox(left - pad, front - pad, low - pad, right - left + 2 * pad, back - front + 2 * pad, level - low + pad)
+    box = occ.addBox(
+        left - pad, front - pad, low - pad, right - left + 2 * pad, back - front + 2 * pad, level - low + pad
+    )
     below = [one for one in occ.intersect(solid, [(3, box)])[0] if one[0] == 3]
     if not below:
         raise MeshError("nothing of the hull is below the still level")

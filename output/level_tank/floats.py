@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from hydroelastic.output.quantities import Group, Quantity
@@ -90,10 +90,12 @@ class FloatAtRest:
         return length if abs(length) > _ROUNDING * self.draught else 0.0
 
 
-def floats_at_rest(tank: LevelTank) -> Iterator[FloatAtRest]:
-    """Yield each float of a tank that is meshed in its volume; SI units."""
-    for number, solid in enumerate(tank.floats if isinstance(tank, VolumeTank) else (), len(tank.plates) + 1):
-        yield FloatAtRest(number=number, solid=solid, density=tank.density, gravity=tank.gravity)
+def floats_at_rest(tank: LevelTank) -> tuple[FloatAtRest, ...]:
+    """Return the floats of a tank, SI units, that is meshed in its volume; none of another."""
+    return tuple(
+        FloatAtRest(number=number, solid=solid, density=tank.density, gravity=tank.gravity)
+        for number, solid in enumerate(tank.floats if isinstance(tank, VolumeTank) else (), len(tank.plates) + 1)
+    )
 
 
 _PLACE, _TURNS = ("x_y_and_z",), ("roll_and_pitch",)
@@ -115,13 +117,13 @@ FLOATS = Group("bodies", "floats with draught at rest, in a volume", (
     Quantity("heave_stiffness", "hydrostatic stiffness of heave", "N/m", symbol="c33", shown=".6g"),
     Quantity("rotational_stiffness", "hydrostatic stiffness of roll and of pitch", "N m", symbol="c44, c55",
         dimensions=_TURNS, shown=".6g"),
-), record=lambda result: list(floats_at_rest(result.tank.tank)), dimension="body", prefix="body")
+), record=lambda result: list(result.floats), dimension="body", prefix="body")
 # fmt: on
 
 
-def floats_section(tank: LevelTank) -> Iterator[Section]:
+def floats_section(floats: Sequence[FloatAtRest]) -> Iterator[Section]:
     """Yield the table of the floats at rest, if there are any."""
-    found = [FLOATS.evaluated(one) for one in floats_at_rest(tank)]
+    found = [FLOATS.evaluated(one) for one in floats]
     if found:
         parts = [part for part in FLOATS.parts if isinstance(part, Quantity)][2:]
         yield Section(

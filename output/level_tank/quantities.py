@@ -14,7 +14,7 @@ from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mod
 from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
-from hydroelastic.output.level_tank.floats import FLOATS
+from hydroelastic.output.level_tank.floats import FLOATS, FloatAtRest
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity, array
 
@@ -25,6 +25,10 @@ class EstimatedLevelTank(Protocol):
     @property
     def tank(self) -> LevelSolution:
         """The field solution."""
+
+    @property
+    def floats(self) -> Sequence[FloatAtRest]:
+        """The floats with draught at rest."""
 
     @property
     def exact(self) -> Sequence[ExactMode]:

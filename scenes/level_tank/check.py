@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue, line_nodes, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.output.digits import number
-from hydroelastic.output.level_tank.floats import floats_section
+from hydroelastic.output.level_tank.floats import floats_at_rest, floats_section
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank
 from hydroelastic.physics.obstacles import VerticalBaffle
@@ -40,7 +40,7 @@ def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
         title="What is asked",
         lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",),
     )
-    yield from floats_section(tank)
+    yield from floats_section(floats_at_rest(tank))
     yield Section(title="Boundaries", headings=("boundary", "condition"), rows=tuple(_boundaries(tank)))
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(tank)))
     if tank.plates:

@@ -46,7 +46,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 run_level_tank = StagedRun(
     solve=solve_level_scene,
     kind=LEVEL_TANK,
-    sections=lambda solved, summary: (*floats_section(solved.tank.tank), *level_tank_sections(summary)),
+    sections=lambda solved, summary: (*floats_section(solved.floats), *level_tank_sections(summary)),
     cost=level_tank_cost,
     sample=_sample,
     write=_write,

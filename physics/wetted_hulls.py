@@ -10,8 +10,8 @@ and the waterplane closes the surface, so that ∫f(x, y) dA = −∫f(x, y) n_z
 
 from __future__ import annotations
 
-from itertools import pairwise
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np

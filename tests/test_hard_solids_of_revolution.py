@@ -30,7 +30,12 @@ SPAR_IN_RING = [cylinder(1.0, 2.0), cylinder(3.0, 0.5, inner_radius=2.0)]
 # Bodies, depth, ω, motions.
 HARD: dict[str, tuple[list[dict[str, Any]], float, float, tuple[str, ...]]] = {
     "a gap of a hundredth of the radius under a deep float": ([cylinder(1.0, 0.99)], 1.0, 2.0, MOTIONS),
-    "a ring as thin as a two-hundredth of its radius": ([cylinder(10.0, 0.1, inner_radius=9.95)], 5.0, 1.5, MOTIONS[:2]),
+    "a ring as thin as a two-hundredth of its radius": (
+        [cylinder(10.0, 0.1, inner_radius=9.95)],
+        5.0,
+        1.5,
+        MOTIONS[:2],
+    ),
     "long waves, Ka = 1e-3": ([SPHERE], math.inf, math.sqrt(1e-3 * GRAVITY), MOTIONS[:2]),
     "short waves, Ka = 20": ([SPHERE], math.inf, math.sqrt(20.0 * GRAVITY), MOTIONS[:2]),
     "short waves beside corners, Ka = 20": ([cylinder(1.0, 0.5)], 2.0, math.sqrt(20.0 * GRAVITY), MOTIONS),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +81,8 @@ def test_the_shipped_hull_is_at_rest_in_its_place() -> None:
     assert physical.floats[0].hydrostatics.first[0] > 0.01
     assert physical.baffles == (VerticalBaffle(start=(2.5, 0.0), end=(2.5, 6.0), bottom=-1.2),)
     assert physical.columns == (Disc(position=(10.0, 3.0), radius=0.6),)
-    titles = [section.title for section in check_level_tank(scene)]
+    # Before a mesh is made for the size.
+    titles = [section.title for section in islice(check_level_tank(scene), 3)]
     assert titles.index("Bodies at rest") < titles.index("Boundaries")
 
 

@@ -73,7 +73,7 @@ def written(file: Path, triangles: np.ndarray) -> Path:
 
 
 def solid_file(folder: Path, name: str, *, box: tuple[float, float, float] | None = None) -> Path:
-    """The ellipsoid, or a box of a draught and twice the height beside the origin, as a solid of CAD or its triangles."""
+    """The ellipsoid, or a box of twice its draught beside the origin, as a solid of CAD or its triangles."""
     file = folder / name
     with gmsh_model():
         occ = gmsh.model.occ

@@ -47,7 +47,12 @@ Solution = TypeVar(
 def solve_by_order(
     problem: OpenWaterProblem, request: Request, memory: Memory
 ) -> (
-    RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution | ImpulseResponseSolution | MotionSolution
+    RadiationSolution
+    | ResponseSolution
+    | ResonanceSolution
+    | DecaySolution
+    | ImpulseResponseSolution
+    | MotionSolution
 ):
     """Solve an analysis for the orders that it needs, and join them (collective)."""
     match request:

@@ -193,7 +193,9 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             omega=axis * unit,
             hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
         )
-        return Attempt(result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution)
+        return Attempt(
+            result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution
+        )
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result

@@ -173,18 +173,13 @@ def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarr
     omegas, basin = curves[0].omegas, curves[0].solver.model.basin
     outsides = [one.solver.model.outside for one in curves]
     towards = direction_of(request.waves_from)
-    dynamic = np.array(
-        [
-            block_diag(*(response.equations.dynamic for response in responses))
-            for responses in zip(*(one.responses for one in curves), strict=True)
-        ]
-    )
-    forces = np.hstack(
-        [
-            [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses]
-            for own in curves
-        ]
-    )
+    dynamic = np.array([
+        block_diag(*(response.equations.dynamic for response in responses))
+        for responses in zip(*(one.responses for one in curves), strict=True)
+    ])
+    forces = np.hstack([
+        [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses] for own in curves
+    ])
     paths = np.hstack([one.paths for one in outsides])
     scaled = omegas / basin.units.frequency
     whole = replace(outsides[0], paths=paths, damping=block_diag(*(one.damping for one in outsides)))
@@ -217,10 +212,7 @@ def _mean_drift(
     starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
     # Motions per c of the incident wave.
     parts = [
-        [
-            row[None] / one.per_elevation(towards)[0]
-            for row, one in zip(motions[:, first:last], own.responses, strict=True)
-        ]
+        [row[None] / one.per_elevation(towards)[0] for row, one in zip(motions[:, first:last], own.responses, strict=True)]
         for own, first, last in zip(curves, starts, starts[1:], strict=False)
     ]
     if problem.tank.geometry.is_revolved:
@@ -233,16 +225,10 @@ def _mean_drift(
         forces = _drift_of_orders(problem, request, omegas, known)
     else:
         units = curves[0].solver.model.basin.units
-        forces = (
-            units.density
-            * units.gravity
-            * np.array(
-                [
-                    float(one.drift_force(part)[0] * abs(one.per_elevation(towards)[0]) ** 2)
-                    for one, part in zip(curves[0].responses, parts[0], strict=True)
-                ]
-            )
-        )
+        forces = units.density * units.gravity * np.array([
+            float(one.drift_force(part)[0] * abs(one.per_elevation(towards)[0]) ** 2)
+            for one, part in zip(curves[0].responses, parts[0], strict=True)
+        ])
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
     roots = np.sqrt(np.abs(forces))[:, None]
     return towards * 2.0 * float(moments(request.spectrum, omegas, roots, (0,))[0, 0])

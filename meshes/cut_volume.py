@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.distribute import NodedMesh
-from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.meshes.geometry import INTERFACE, LOWER_LIQUID
 from hydroelastic.meshes.tagged_mesh import MeshError
 
 _DIM = 3
@@ -42,14 +43,14 @@ def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -
     open_ = ~np.isin(number, tagged[cut])
     part = _parts(mesh.cells, places, number, open_)
     # The first part around a node keeps its number.
-    _, first, part = np.unique(part, return_index=True, return_inverse=True)
+    _, first, places_of_parts = np.unique(part, return_index=True, return_inverse=True)
     nodes = mesh.cells.ravel()[first]
     order = np.lexsort((first, nodes))
     again = np.zeros(len(order), dtype=bool)
     again[order[1:]] = nodes[order[1:]] == nodes[order[:-1]]
     numbers = nodes.copy()
     numbers[again] = len(mesh.points) + np.arange(np.count_nonzero(again))
-    cells = numbers[part].reshape(mesh.cells.shape)
+    cells = numbers[places_of_parts].reshape(mesh.cells.shape)
     tags = np.full(len(faces), -1)
     left = np.isin(mesh.facet_tags, [number for name, number in mesh.facet_names.items() if name in kept]) | ~cut
     tags[tagged[left]] = mesh.facet_tags[left]
@@ -68,25 +69,49 @@ def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -
 
 
 def with_regions(mesh: NodedMesh) -> NodedMesh:
-    """Name the parts of one liquid that share no node ``liquid_1``, ``liquid_2``, …; leave a single one as it is.
+    """Name the parts of a liquid that share no node ``liquid_1``, ``liquid_2``, …, where there are several.
+
+    The interface of two of them is then named ``interface:lower_liquid_1:upper_liquid_2``, say.
 
     Raises:
-        MeshError: if nothing moves in a part, or there are two liquids and more parts.
+        MeshError: if nothing moves in a part.
     """
     count, part = connected_parts(mesh.cells)
     if count == len(mesh.cell_names):
         return mesh
-    if len(mesh.cell_names) > 1:
-        raise MeshError("baffles divide one of two liquids, which is not modelled")
     moving = [number for name, number in mesh.facet_names.items() if not name.startswith("mirror")]
     surface = np.isin(mesh.cells, mesh.facets[np.isin(mesh.facet_tags, moving)]).any(axis=1)
     if len(np.unique(part[surface])) < count:
         raise MeshError("baffles close in a part of the liquid that has no still surface")
-    return replace(
+    liquids = {number: name for name, number in mesh.cell_names.items()}
+    _, first = np.unique(part, return_index=True)
+    names = [f"{liquids[mesh.cell_tags[cell]]}_{number}" for number, cell in enumerate(first, 1)]
+    parted = replace(
         mesh,
         cell_tags=(part + 1).astype(np.int32),
-        cell_names={f"{LIQUID}_{number}": number for number in range(1, count + 1)},
+        cell_names={name: number for number, name in enumerate(names, 1)},
     )
+    return _with_interfaces(parted, names, part) if INTERFACE in mesh.facet_names else parted
+
+
+def _with_interfaces(mesh: NodedMesh, names: list[str], part: NDArray[np.int32]) -> NodedMesh:
+    """Name the faces of the interface by the parts of the liquids on both sides."""
+    part_of_node = np.zeros(len(mesh.points), np.int32)
+    part_of_node[mesh.cells] = part[:, None]
+    (faces,) = np.nonzero(mesh.facet_tags == mesh.facet_names[INTERFACE])
+    owner = part_of_node[mesh.facets[faces, 0]]
+    is_lower = np.array([name.startswith(LOWER_LIQUID) for name in names])[owner]
+    middles = mesh.points[mesh.facets[faces]].mean(axis=1)
+    beyond = np.empty_like(owner)
+    for side in (is_lower, ~is_lower):
+        beyond[side] = owner[~side][cKDTree(middles[~side]).query(middles[side])[1]]
+    below, above = np.where(is_lower, owner, beyond), np.where(is_lower, beyond, owner)
+    facet_names = {name: number for name, number in mesh.facet_names.items() if name != INTERFACE}
+    tags, last = mesh.facet_tags.copy(), max(mesh.facet_names.values())
+    for number, (one, other) in enumerate(sorted(set(zip(below.tolist(), above.tolist(), strict=True))), last + 1):
+        facet_names[f"{INTERFACE}:{names[one]}:{names[other]}"] = number
+        tags[faces[(below == one) & (above == other)]] = number
+    return replace(mesh, facet_tags=tags, facet_names=facet_names)
 
 
 def connected_parts(cells: NDArray[np.int64]) -> tuple[int, NDArray[np.int32]]:
@@ -113,10 +138,12 @@ def _parts(
     """The part around its node of each node of each cell, shape (cells times nodes,)."""
     corner = np.arange(cells.size).reshape(cells.shape)
     sides = np.broadcast_to(faces[:, :, None], (len(cells), *places.shape))[open_]
-    ends, linked = cells[:, places][open_], corner[:, places][open_]
-    key = (sides * (int(cells.max()) + 1) + ends).ravel()
+    ends: NDArray[np.int64] = cells[:, places][open_].ravel()
+    linked: NDArray[np.int64] = corner[:, places][open_].ravel()
+    key = sides.ravel() * (int(cells.max()) + 1) + ends
     order = np.argsort(key, kind="stable")
-    key, linked = key[order], linked.ravel()[order]
+    key = key[order]
+    linked = linked[order]
     same = key[1:] == key[:-1]
     one, other = linked[:-1][same], linked[1:][same]
     links = coo_array((np.ones(len(one), np.int8), (one, other)), shape=(cells.size, cells.size))

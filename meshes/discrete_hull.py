@@ -19,8 +19,8 @@ from hydroelastic.physics.solid_floats import SolidFloat
 
 # Angle between triangles from which their common edge is an edge of the hull, and between pieces of a waterline.
 _SHARP = 30.0 * pi / 180.0
-# Numbers of parts of OpenCASCADE begin here, so that none of a hull has them too.
-_FIRST = 100_000
+# Numbers of parts of OpenCASCADE begin here, so that none of a hull has them too; those made of both have the second.
+_FIRST, _JOINED = 100_000, 200_000
 _TRIANGLE = 2
 
 
@@ -58,7 +58,15 @@ def add_hulls(floats: dict[str, SolidFloat]) -> dict[str, list[int]]:
         found[nearest].append(tag)
     for dim in range(-2, 4):
         gmsh.model.occ.setMaxTag(dim, _FIRST)
+    # While these are there, each part that is made has a larger number than they.
+    far = 1e3
+    gmsh.model.occ.addBox(far, far, far, 1.0, 1.0, 1.0, _FIRST)
     return found
+
+
+def release_numbers() -> None:
+    """Remove what keeps the numbers of hulls from being given again, before the model is synchronized."""
+    gmsh.model.occ.remove([(3, _FIRST)], recursive=True)
 
 
 def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) -> tuple[int, int, int]:
@@ -91,9 +99,9 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
     rims.sort(key=lambda loop: -float(np.ptp([box_around((1, tag)) for tag in loop], axis=(0, 1)).max()))
     boundary = [tag for _, tag in model.getBoundary([(3, liquid)], oriented=False) if tag != replaced]
     inside = {dim: model.mesh.getEmbedded(dim, tag) for dim, tag in ((2, replaced), (3, liquid))}
-    still = geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in (*rims, *waterlines)])
+    still = geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in (*rims, *waterlines)], _JOINED)
     shell = [*boundary, still, *(tag for faces in hulls.values() for tag in faces)]
-    volume = geo.addVolume([geo.addSurfaceLoop(shell)])
+    volume = geo.addVolume([geo.addSurfaceLoop(shell)], _JOINED)
     geo.synchronize()
     for dim, parent in ((2, still), (3, volume)):
         for own in range(dim):

@@ -9,6 +9,9 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.tagged_mesh import MeshError
@@ -33,6 +36,8 @@ _AROUND, _DEGREE, _SMALLEST = 16, 4, 0.02
 # Part of the waterplane that the sum of all areas may differ from zero.
 _CLOSED = 1e-4
 _TRIANGLE = 2
+# Part of the extent: corners this close are one; binary files hold single precision.
+_SAME_PLACE = 1e-6
 
 
 def wetted_hull(file: Path, *, draught: float | None = None, volume: float | None = None) -> WettedHull:
@@ -58,11 +63,12 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
     if not low < level <= high + 1e-9 * (high - low):
         raise MeshError(f"the still level, z = {level:g} m of {file}, is not between its lowest and highest point")
     found, corners = hydrostatics_at(file, level)
+    least, most = ((float(place[0]), float(place[1]), float(place[2])) for place in corners)
     return WettedHull(
         file=file,
         level=level,
-        low=tuple(map(float, corners[0])),
-        high=tuple(map(float, corners[1])),
+        low=least,
+        high=most,
         hydrostatics=found,
         symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
     )
@@ -131,15 +137,14 @@ def triangles_of(file: Path, _changed: int) -> Triangles:
         raise MeshError(f"{file} holds no triangles")
     order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     order[tags.astype(np.int64)] = np.arange(len(tags))
-    points, numbers = np.unique(np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True)
+    every = places.reshape(-1, 3)
+    pairs = cKDTree(every).query_pairs(_SAME_PLACE * np.ptp(every, axis=0).max(), output_type="ndarray")
+    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(every), len(every)))
+    _, part = connected_components(links, directed=False)
+    _, first, numbers = np.unique(part, return_index=True, return_inverse=True)
     triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    return Triangles(points=points, corners=triangles[distinct])
-
-
-def _digits(places: np.ndarray) -> int:
-    """Decimal places that the single precision of a binary file has."""
-    return int(6 - np.ceil(np.log10(np.abs(places).max())))
+    return Triangles(points=every[first], corners=triangles[distinct])
 
 
 def wetted_triangles(file: Path, level: float) -> Triangles:

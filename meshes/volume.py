@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
-from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls
+from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls, release_numbers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
@@ -145,6 +145,8 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         tools[LOWER_LIQUID] = below(tank, tank.interface)
     flat = [one for tool in tools.values() for one in tool]
     made = occ.fragment(liquid, flat)[1] if flat else [[one] for one in liquid]
+    if hulls:
+        release_numbers()
     occ.synchronize()
     pieces, place = {}, len(liquid)
     for name, tool in tools.items():

@@ -40,10 +40,7 @@ def plan_middle(tank: VolumeTank) -> tuple[float, float]:
 def liquid_solid(tank: VolumeTank) -> Entities:
     """All of the inside of the tank up to the still surface, but for columns."""
     occ, plan = gmsh.model.occ, tank.plan
-    if isinstance(plan, FilePlan):
-        solid = solid_of_file(plan)
-    else:
-        solid = _upright(tank)
+    solid = solid_of_file(plan) if isinstance(plan, FilePlan) else _upright(tank)
     for number, outline in enumerate(tank.columns, 1):
         whole = occ.getMass(*solid[0])
         solid = [one for one in occ.cut(solid, _prism(face(outline), 2.0 * _reach(tank)))[0] if one[0] == 3]

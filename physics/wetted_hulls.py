@@ -11,6 +11,7 @@ and the waterplane closes the surface, so that ∫f(x, y) dA = −∫f(x, y) n_z
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -162,7 +163,7 @@ class Triangles:
                     corners.append(one)
                 if height[one] * height[other] < 0.0:
                     corners.append(crossing(int(one), int(other)))
-            kept.append(np.array([(corners[0], *pair) for pair in zip(corners[1:-1], corners[2:], strict=True)]))
+            kept.append(np.array([(corners[0], *pair) for pair in pairwise(corners[1:])]))
         corners = np.concatenate(kept).astype(np.int64)
         used, numbers = np.unique(corners, return_inverse=True)
         every = np.concatenate([points, np.array(more).reshape(-1, 3)])

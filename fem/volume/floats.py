@@ -9,6 +9,7 @@ from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.solid_floats import RigidMotion, SolidFloat
 from hydroelastic.physics.symmetry import Parity
@@ -65,7 +66,7 @@ def float_body(solid: SolidFloat, name: str, parity: ClassParity) -> Body:
     )
 
 
-def _principal(stiffness: NDArray[np.float64], inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+def _principal(stiffness: FloatArray, inertia: FloatArray) -> NDArray[np.float64]:
     """Motions that neither stiffness nor inertia couples, as columns in the given ones.
 
     Those are the motions of the float alone, without liquid, under its hydrostatic stiffness; each is in the place of

@@ -18,7 +18,7 @@ from hydroelastic.fem.volume.matrices import volume_matrices
 from hydroelastic.fem.volume.pencil import SolverOf, moving_surfaces, volume_pencil
 from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
+from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID, LOWER_LIQUID
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.meshes.volume import MIRRORS
@@ -77,11 +77,14 @@ def _are_symmetric(tank: VolumeTank, axis: int, middle: float) -> bool:
 
 
 def _layers(tank: VolumeTank, mesh: TankMesh) -> tuple[Layer, ...]:
-    """The liquids from the bottom up, or the parts of one that baffles divide."""
-    if tank.lower is not None:
-        return Layer(name=LOWER_LIQUID, density=tank.lower.density), Layer(name=UPPER_LIQUID, density=1.0)
-    parts = tuple(Layer(name=name, density=1.0) for name in mesh.cell_names if name != LIQUID)
-    return parts or ONE_LIQUID
+    """The liquids from the bottom up, or all of their parts that baffles divide."""
+    if tuple(mesh.cell_names) == (LIQUID,):
+        return ONE_LIQUID
+    return tuple(
+        Layer(name=name, density=tank.lower.density if tank.lower and name.startswith(LOWER_LIQUID) else 1.0)
+        # Lower liquids come before upper ones.
+        for name in sorted(mesh.cell_names)
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,6 +21,7 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
+from hydroelastic.meshes.tagged_mesh import MeshError
 
 SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], LiquidOperator]
 """Makes A⁺ from the space, A, the layers of constant volume, and the number of parts that are alike."""
@@ -36,8 +37,12 @@ def moving_surfaces(liquid: LiquidSpace, *, waves: bool) -> tuple[LiquidSurface,
     """
     names = liquid.tank.facet_names
     found = []
-    if INTERFACE in names:
-        found.append(LiquidSurface(surface=INTERFACE, gravity=1.0, below=0, above=1))
+    layers = [layer.name for layer in liquid.layers]
+    for name in names:
+        if name.startswith(INTERFACE):
+            # Its name tells the parts on both sides, if there are more than two.
+            below, above = (layers.index(part) for part in name.split(":")[1:]) if ":" in name else (0, 1)
+            found.append(LiquidSurface(surface=name, gravity=1.0, below=below, above=above))
     if waves and FREE_SURFACE in names:
         for layer in range(len(liquid.layers)):
             if liquid.tank.mesh.comm.allreduce(len(liquid.surface_dofs((FREE_SURFACE,), layer))):
@@ -75,6 +80,8 @@ def volume_pencil(
     names = tuple(dict.fromkeys((*(body.surface for body in bodies), *(surface.surface for surface in surfaces))))
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
+    if any(layer.measure <= 0.0 for layer in closed):
+        raise MeshError("baffles close in a part of the liquid in which nothing moves")
     loads = chain.from_iterable(
         images * load
         for load in chain(

@@ -22,6 +22,8 @@ from hydroelastic.physics.arrays import FloatArray
 _PARTS = 3
 # Points this close, in units of the tank, are one.
 _SAME = 1e-9
+# Part of the largest value of a mode.
+_SAME_VALUE = 1e-6
 # Nodes of VTK's quadratic tetrahedron: corners, and the middles of these pairs.
 _MIDDLES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 # Nodes of a mirror image in the order of a cell that is not turned: of triangles and of these tetrahedra.
@@ -77,7 +79,7 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
                         [
                             one.mode.eigenvalue
                             * (function.x.array[dofs] @ table.T).ravel()
-                            * bool(one.problem.pencil.surfaces)
+                            * any(surface.surface == FREE_SURFACE for surface in one.problem.pencil.surfaces)
                             for one, function in zip(modes, functions, strict=True)
                         ]
                     )
@@ -90,7 +92,7 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
     first = 0
     for number, at, moved in (part for process in gathered for part in process):
         if len(at):
-            kept, numbers = _merged(at)
+            kept, numbers = _merged(at, moved if model.tank.baffles else None)
             blocks = np.arange(len(at)).reshape(-1, len(local))
             corners.append(first + numbers[blocks[:, triangles].reshape(-1, 3)])
             every.append(at[kept, :2])
@@ -167,15 +169,26 @@ def volume_sample(
     if gathered is None:
         return None
     points = np.concatenate([part[0] for part in gathered])
-    kept, numbers = _merged(points)
-    potentials = np.concatenate([part[1] for part in gathered], axis=1)[:, kept]
+    potentials = np.concatenate([part[1] for part in gathered], axis=1)
+    tank = problem_of(modes[0]).model.tank
+    kept, numbers = _merged(points, potentials if tank.baffles or tank.lower else None)
+    potentials = potentials[:, kept]
     every, shown, cells = _mirrored(modes, points[kept], potentials, [numbers.reshape(-1, len(reference))])
     return every, cells, shown
 
 
-def _merged(points: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The first of each set of equal points, and the number of each point among them."""
-    _, kept, numbers = np.unique(np.round(points / _SAME), axis=0, return_index=True, return_inverse=True)
+def _merged(points: FloatArray, values: FloatArray | None) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The first of each set of equal points, and the number of each point among them.
+
+    Args:
+        points: shape (n, dim).
+        values: of each mode at them, shape (modes, n), which differ on both sides of a baffle or an interface; ``None``
+            where there is none.
+    """
+    keys = points / _SAME
+    if values is not None:
+        keys = np.column_stack([keys, (values / (_SAME_VALUE * np.abs(values).max(axis=1, keepdims=True))).T])
+    _, kept, numbers = np.unique(np.round(keys), axis=0, return_index=True, return_inverse=True)
     return kept, numbers.ravel()
 
 

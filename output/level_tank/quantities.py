@@ -14,6 +14,7 @@ from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mod
 from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
+from hydroelastic.output.level_tank.floats import FLOATS, FloatAtRest
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity, array
 
@@ -24,6 +25,10 @@ class EstimatedLevelTank(Protocol):
     @property
     def tank(self) -> LevelSolution:
         """The field solution."""
+
+    @property
+    def floats(self) -> Sequence[FloatAtRest]:
+        """The floats with draught at rest."""
 
     @property
     def exact(self) -> Sequence[ExactMode]:
@@ -233,6 +238,7 @@ _ARRAYS = (
         lambda it: it.sample.elevations),
 )
 LEVEL_TANK = Group("", "a tank in three dimensions", (
+    FLOATS,
     MODES,
     Quantity("zero_modes", "motions without stiffness", "1", value=lambda it: it.tank.zero_modes),
     FIRST_ELASTIC, TONES, ESTIMATES, EXACT, SOLVER, SIZE, *_ARRAYS,

@@ -7,8 +7,11 @@ from collections.abc import Iterator
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue, line_nodes, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.output.digits import number
+from hydroelastic.output.level_tank.floats import floats_at_rest, floats_section
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank
+from hydroelastic.physics.obstacles import VerticalBaffle
+from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
 from hydroelastic.scenes.level_tank.solve import require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
@@ -37,6 +40,7 @@ def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
         title="What is asked",
         lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",),
     )
+    yield from floats_section(floats_at_rest(tank))
     yield Section(title="Boundaries", headings=("boundary", "condition"), rows=tuple(_boundaries(tank)))
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(tank)))
     if tank.plates:
@@ -67,12 +71,27 @@ def _boundaries(tank: LevelTank) -> Iterator[Row]:
         yield f"bed through {len(bed.points)} points, up to {tank.depth:g} m deep", "ψ_n = 0"
     elif not isinstance(plan, FilePlan):
         yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
-    yield "top beside the plates", _TOPS[tank.top]
-    for index, solid in enumerate(tank.floats if isinstance(tank, VolumeTank) else (), len(tank.plates) + 1):
-        yield f"float {index}, {solid.shape} of {solid.draught:g} m draught", f"ψ_n = u·n, {', '.join(solid.motions)}"
+    if isinstance(tank, VolumeTank):
+        yield from _inside(tank)
+    beside = "bodies" if isinstance(tank, VolumeTank) and tank.floats else "plates"
+    yield f"top beside the {beside}", _TOPS[tank.top]
     for index, plate in enumerate(tank.plates, 1):
         motion = "ψ_z = w, which bends" if plate.is_elastic else "ψ_z = w, heave and pitch"
         yield f"plate {index}", motion
+
+
+def _inside(tank: VolumeTank) -> Iterator[Row]:
+    for index, outline in enumerate(tank.columns, 1):
+        size = f"radius {outline.radius:g} m" if isinstance(outline, Disc) else "{:g} m × {:g} m".format(*outline.size)
+        yield f"column {index} of {size}", "ψ_n = 0"
+    for index, baffle in enumerate(tank.baffles, 1):
+        kind = "vertical" if isinstance(baffle, VerticalBaffle) else "horizontal"
+        yield f"{kind} baffle {index}", "ψ_n = 0 on both sides, between which ψ jumps"
+    if tank.lower is not None and tank.interface is not None:
+        jump = f"g[ρψ_z] = ω²[ρψ], {tank.lower.density:g} kg/m³ under {tank.density:g} kg/m³"
+        yield f"interface, {-tank.interface:g} m deep", jump
+    for index, solid in enumerate(tank.floats, len(tank.plates) + 1):
+        yield f"float {index}, {solid.shape} of {solid.draught:g} m draught", f"ψ_n = u·n, {', '.join(solid.motions)}"
 
 
 def _unknowns(tank: LevelTank) -> Iterator[Row]:
@@ -82,6 +101,8 @@ def _unknowns(tank: LevelTank) -> Iterator[Row]:
         yield "ψ", "on the surface", "over a level bed it follows below as cosh k(z + H)/cosh kH of each part"
     if tank.top == "free":
         yield "η", "water", "it keeps gravity waves"
+    if isinstance(tank, VolumeTank) and tank.lower is not None:
+        yield "η of the interface", "between the liquids", "it keeps internal waves"
     for index, plate in enumerate(tank.plates, 1):
         what = "its dry modes" if plate.is_elastic else "its rigid motions"
         yield f"w of plate {index}", what, "smooth, so that a few functions are enough"

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.level_tank.floats import floats_section
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes, sample_volume
 from hydroelastic.output.level_tank.tables import compared_level_tank, level_tank_cost, level_tank_sections
@@ -45,7 +46,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 run_level_tank = StagedRun(
     solve=solve_level_scene,
     kind=LEVEL_TANK,
-    sections=lambda _solved, summary: level_tank_sections(summary),
+    sections=lambda solved, summary: (*floats_section(solved.floats), *level_tank_sections(summary)),
     cost=level_tank_cost,
     sample=_sample,
     write=_write,

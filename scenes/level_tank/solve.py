@@ -10,6 +10,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.modal.plate.estimates import plate_estimates
+from hydroelastic.output.level_tank.floats import FloatAtRest, floats_at_rest
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
@@ -29,6 +30,7 @@ class SolvedLevelTank:
     Attributes:
         scene: the scene.
         tank: its field solution.
+        floats: those with draught, at rest.
         exact: the frequencies of a closed form, if there is one, ascending.
         estimates: those of the plates.
         estimating: the time that they took, by stage.
@@ -36,6 +38,7 @@ class SolvedLevelTank:
 
     scene: LevelTankScene | RoundTankScene
     tank: LevelSolution
+    floats: tuple[FloatAtRest, ...] = ()
     exact: tuple[ExactMode, ...] = ()
     estimates: tuple[PlateEstimate, ...] = ()
     estimating: dict[str, float] = field(default_factory=dict)
@@ -77,7 +80,14 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
         )
     except (EigenSolverError, MeshError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
-    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)
+    return SolvedLevelTank(
+        scene=scene,
+        tank=solution,
+        floats=floats_at_rest(physical),
+        exact=exact,
+        estimates=estimates,
+        estimating=watch.seconds,
+    )
 
 
 def require_treated(scene: LevelTankScene) -> None:

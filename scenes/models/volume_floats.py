@@ -138,14 +138,15 @@ class VolumeFloat(SparseModel):
             UnfloatableError: if mass and draught do not fit together, or the file of a hull cannot be used.
         """
         volume = None if self.mass is None else self.mass / density
-        hull = None
+        hull: WettedHull | None = None
+        outline: tuple[Point, ...] = ()
         if self.shape == "hull":
             hull = self._hull(folder, None if self.draught is not None else volume)
             found = hull.hydrostatics
             x, y = self.position or middle
             position = (x + found.axis[0], y + found.axis[1])
             size, depth = (hull.high[0] - hull.low[0], hull.high[1] - hull.low[1]), -hull.low[2]
-            outline, centre, radii = (), self.vertical_centre_of_gravity or 0.0, (0.0, 0.0, 0.0)
+            centre, radii = self.vertical_centre_of_gravity or 0.0, (0.0, 0.0, 0.0)
         else:
             position = self.position or middle
             size, depth, outline, centre, radii = self._simple(volume)

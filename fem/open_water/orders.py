@@ -25,6 +25,7 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.round_plates import along_diameter, joined
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.dofs import Dof, dof_names
@@ -56,7 +57,7 @@ def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> Ra
 
 
 def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
-    dofs = _dofs(problem)
+    dofs = _dofs(problem, *tables)
     first = tables[0]
     places = [_places(dofs, table.dofs) for table in tables]
 
@@ -94,28 +95,32 @@ def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> Radia
 
 
 def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
-    """Solve for the motions of each order, and for the waves that fixed bodies scatter in higher orders (collective).
+    """Solve for the motions of each order, and for the waves that are scattered in higher orders (collective).
 
-    Orders are added until the scattered waves of one are below the tolerance at all frequencies.
+    Orders are added until the scattered waves of one, and the deflections of plates, are below the tolerance at all
+    frequencies.
     """
     found: list[ResponseSolution] = []
     last = max(problem.tank.orders)
-    while not found or len(found) <= last or _scatters(problem, found[-1].table):
+    while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
         found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
     return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
 
 
-def _scatters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
+def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
+    """Whether an order scatters waves or bends a plate by more than the tolerance."""
     assert table.partial_waves is not None
-    return bool(np.abs(table.partial_waves).max() > problem.tolerance)
+    found = (table.partial_waves, *(plate.derivatives[0] for plate in table.round_plates))
+    return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
 def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
-    dofs = _dofs(problem)
+    dofs = _dofs(problem, *tables)
     waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
+    plates = tuple(joined(list(parts)) for parts in zip(*(table.round_plates for table in tables), strict=True))
     return replace(
         tables[0],
         dofs=dofs,
@@ -128,6 +133,8 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),
+        plates=tuple(along_diameter(problem.tank, plate) for plate in plates),
+        round_plates=plates,
     )
 
 
@@ -152,8 +159,8 @@ def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndar
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
     found = [solve_resonance(problem.of_order(order), request) for order in problem.tank.orders]
-    dofs = _dofs(problem)
     tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
     omega = np.concatenate([table.omega for table in tables])
     chosen = np.argsort(np.abs(omega), kind="stable")[: request.count]
     motions = [_by_dof(dofs, [(table.dofs, table.body_amplitudes)]) for table in tables]
@@ -205,9 +212,11 @@ def _solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolut
     return replace(_largest(found), table=table, error=_error(found), solved=sum(one.solved for one in found))
 
 
-def _dofs(problem: OpenWaterProblem) -> tuple[Dof, ...]:
+def _dofs(problem: OpenWaterProblem, *tables: RadiationTable | ResponseTable | ResonanceTable) -> tuple[Dof, ...]:
     """Degrees of freedom of all orders, body by body."""
-    return dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
+    rigid = dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
+    elastic = (dof for table in tables for dof in table.dofs if dof.is_elastic)
+    return tuple(sorted((*rigid, *elastic), key=lambda dof: dof.body or 0))
 
 
 def _places(dofs: tuple[Dof, ...], own: tuple[Dof, ...]) -> np.ndarray:

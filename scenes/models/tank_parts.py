@@ -26,12 +26,13 @@ from hydroelastic.scenes.models.bodies import (
     PositiveNumber,
     SceneModel,
 )
-from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyBody, AnyFloat
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
+from hydroelastic.scenes.models.round_plates import SeaPlate
 
 
 class Tank(SceneModel):
@@ -157,7 +158,7 @@ class TankParts(SceneModel):
             """The liquids, from the bottom up."""
 
         @property
-        def body(self) -> tuple[AnyBeam | AnyFloat, ...]:
+        def body(self) -> tuple[AnyBody, ...]:
             """The bodies."""
 
         @property
@@ -239,8 +240,8 @@ class TankParts(SceneModel):
 
     @property
     def is_revolved(self) -> bool:
-        """Whether it is a sea of revolution: its bodies are solids on one vertical axis, not sections."""
-        return any(isinstance(body, RevolvedFloat) for body in self.body)
+        """Whether it is a sea of revolution: its bodies are solids and plates on one vertical axis, not sections."""
+        return any(isinstance(body, RevolvedFloat | SeaPlate) for body in self.body)
 
     @property
     def analyses(self) -> tuple[Analysis, ...]:
@@ -250,14 +251,19 @@ class TankParts(SceneModel):
     @property
     def beams(self) -> tuple[tuple[int, AnyBeam], ...]:
         """The beams, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, AnyFloat))
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyBeam))
+
+    @property
+    def plates(self) -> tuple[tuple[int, SeaPlate], ...]:
+        """The round plates, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, SeaPlate))
 
     @property
     def floats(self) -> tuple[tuple[int, AnyFloat], ...]:
         """The floats, each with its index among the bodies."""
         return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyFloat))
 
-    def level_of(self, body: AnyBeam | AnyFloat) -> Level:
+    def level_of(self, body: AnyBody) -> Level:
         """Return the level at which a body floats; with one modelled liquid it is the surface."""
         if len(self.layers) == 1:
             return "surface"

@@ -21,6 +21,8 @@ from hydroelastic.physics.symmetry import Parity
 
 # Error of the deflection by the first N dry modes, _ERROR (_MODES/N)⁵, measured at the edge of discs.
 _ERROR, _MODES = 6e-5, 4.0
+# Lowest order in which a plate has no rigid motion.
+_BENT = 2
 
 
 class RoundPlateModel(BodyModel):
@@ -57,6 +59,25 @@ class RoundPlateModel(BodyModel):
         # The errors of all orders add up, and about so many of them bend the plate.
         orders = 1.0 + wavenumber * self.plate.radius
         return ceil(half_waves + _MODES * (_ERROR * orders / tolerance) ** 0.2) + 2
+
+    def elastic_shapes(self, count: int) -> int:
+        """See `BodyModel.elastic_shapes`."""
+        counts = lowest_elastic(self.plate, count)
+        return dict(enumerate(counts)).get(self.tank.geometry.order, 0)
+
+
+def lowest_elastic(plate: RoundPlate, count: int) -> tuple[int, ...]:
+    """Return how many of the lowest elastic dry modes are of each order 0, 1 …; none of a rigid plate."""
+    found: list[tuple[float, int]] = []
+    # From the second order on the lowest mode rises with the order.
+    for order in range(count + _BENT if plate.bends else 0):
+        shapes = RoundShapes(plate.of_order(order), len(plate.of_order(order).rigid_motions) + count)
+        own = [(float(one / other), order) for one, other in zip(shapes.bending, shapes.squares, strict=True) if one]
+        if len(found) == count and order >= _BENT and min(own)[0] > found[-1][0]:
+            break
+        found = sorted([*found, *own])[:count]
+    orders = [order for _, order in found]
+    return tuple(orders.count(order) for order in range(max(orders, default=-1) + 1))
 
 
 class RoundShapes:

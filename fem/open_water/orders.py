@@ -5,13 +5,17 @@ Heave is of order 0, surge and pitch are of order 1; higher orders scatter waves
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from math import inf
 from typing import TypeVar
 
 import numpy as np
 
+from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.fem.open_water.region import Region
@@ -22,13 +26,17 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.round_plates import along_diameter, joined
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.dofs import Dof, dof_names
+from hydroelastic.physics.round_plates import RoundPlate
+
+# Number of orders in which plates move as rigid bodies, too.
+_BENT = 2
 
 Solution = TypeVar("Solution", RadiationSolution, ResponseSolution, ResonanceSolution, DecaySolution)
 
@@ -52,7 +60,11 @@ def solve_by_order(
 
 def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
     """Solve for the motions of each order (collective); see `solve_radiation`."""
-    found = [solve_radiation(problem.of_order(order), request) for order in problem.tank.orders]
+    orders = {*problem.tank.orders}
+    for body in problem.tank.bodies:
+        if isinstance(body, RoundPlate):
+            orders |= {*range(len(lowest_elastic(body, request.elastic_modes)))}
+    found = [solve_radiation(problem.of_order(order), request) for order in sorted(orders)]
     return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
 
 
@@ -158,7 +170,11 @@ def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndar
 
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
-    found = [solve_resonance(problem.of_order(order), request) for order in problem.tank.orders]
+    orders: Iterable[int] = problem.tank.orders
+    if any(body.flexural_sections for body in problem.tank.bodies):
+        orders, highest = _bending_orders(problem, request)
+        request = replace(request, below=highest)
+    found = [solve_resonance(problem.of_order(order), request) for order in orders]
     tables = [one.table for one in found]
     dofs = _dofs(problem, *tables)
     omega = np.concatenate([table.omega for table in tables])
@@ -183,6 +199,22 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
         known=sum(one.known for one in found),
         unstable=any(one.unstable for one in found),
     )
+
+
+def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float]:
+    """Return the orders of the lowest expected resonances, and the frequency up to which these lie, rad/s (collective).
+
+    Plates bend in all orders; from the second one on the lowest frequency rises with the order.
+    """
+    lowest: list[float] = []
+    known: list[float] = []
+    while True:
+        expected = bodies_at_infinite_frequency(problem.of_order(len(lowest))).frequencies()
+        lowest.append(expected[0] if expected else inf)
+        known = sorted([*known, *expected])[: request.count]
+        highest = ABOVE * known[-1] if request.below is None else request.below
+        if len(lowest) > _BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
+            return [order for order, omega in enumerate(lowest) if omega < highest], highest
 
 
 def _joined_region(regions: list[Region]) -> Region | None:

@@ -30,7 +30,8 @@ _PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase":
 
 @dataclass(frozen=True, kw_only=True)
 class Deflection:
-    """The deflection of a beam in waves: `number` of the body, from 1, and `PlateDeflection` with the waves."""
+    """The deflection of a beam or round plate in waves: `number` of the body, from 1, and `PlateDeflection` with the
+    waves."""
 
     number: int
     omega: Floats
@@ -39,6 +40,8 @@ class Deflection:
     deflection: Complexes
     bending_moment: Complexes
     shear_force: Complexes
+    largest_strain: Floats | None
+    largest_stress: Floats | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +80,7 @@ class WavesAndMotions(ResponseTable):
 
     @property
     def deflections(self) -> Iterator[Deflection]:
-        """The deflection of each beam."""
+        """The deflection of each beam and round plate."""
         for plate in self.plates:
             yield Deflection(
                 number=plate.body + 1,
@@ -87,6 +90,8 @@ class WavesAndMotions(ResponseTable):
                 deflection=plate.deflection,
                 bending_moment=plate.bending_moment,
                 shear_force=plate.shear_force,
+                largest_strain=plate.largest_strain,
+                largest_stress=plate.largest_stress,
             )
 
     @property
@@ -205,7 +210,7 @@ _AMPLITUDES = "omega wave radiating_dof", "omega wave_direction wave radiating_d
 _RATIOS = "omega wave outgoing_wave", "omega wave_direction wave outgoing_wave"
 ALONG_BEAM = "position_on_body_{.number}"
 """The dimension of the places along a beam."""
-PLATES = Group("plates", "the deflection of each beam", (
+PLATES = Group("plates", "the deflection of each beam, and of each round plate along the diameter of the waves", (
     Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
     joined_array("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
     joined_array("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
@@ -217,6 +222,12 @@ PLATES = Group("plates", "the deflection of each beam", (
     joined_array("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
         phase=CREST),
+    joined_array("largest_strain", "largest principal strain at the faces of body {.number} per unit elevation",
+        "omega wave", "omega wave_direction wave", unit="1/m", variable="largest_strain_of_body_{.number}",
+        note="over the whole plate and all times; `null` of beams, and of plates without `thickness`"),
+    joined_array("largest_stress", "largest principal stress at the faces of body {.number} per unit elevation",
+        "omega wave", "omega wave_direction wave", unit="Pa/m", variable="largest_stress_of_body_{.number}",
+        note="as `largest_strain`"),
 ), record=lambda table: list(table.deflections), dimension="plate")
 ALONG_HULL = "point_on_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (

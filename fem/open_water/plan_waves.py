@@ -81,8 +81,9 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
     """
     if table.partial_waves is None or len(table.waves) > 1 or table.waves_from != "left":
         return
-    turns = np.array([dof.is_rotation for dof in table.dofs])
-    sizes = np.where(turns, 0.0, np.abs(table.amplitudes[:, 0])).max(axis=1)
+    # Where plates bend most, or else bodies move most.
+    shown = [dof for dof in table.dofs if dof.is_elastic] or [dof for dof in table.dofs if not dof.is_rotation]
+    sizes = np.where([dof in shown for dof in table.dofs], np.abs(table.amplitudes[:, 0]), 0.0).max(axis=1)
     row = int(np.argmax(sizes))
     omega = float(table.omega[row])
     rough, band = problem.rough(), Band(lowest=omega, highest=omega)

@@ -14,10 +14,10 @@ from hydroelastic.fem.open_water.results import (
     UnresolvedPeak,
 )
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
-from hydroelastic.output.columns import Column, headings_of, rows_of
+from hydroelastic.output.columns import Column, columns_of, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.bodies import bodies_section
-from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.files import STRAIN, open_columns
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
@@ -178,6 +178,19 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
             *(_missed(peak) for peak in table.missed_peaks),
         ),
     )
+    yield from _strains(table, rows)
+
+
+def _strains(table: WavesAndMotions, shown: list[int]) -> Iterator[Section]:
+    """Largest strain and stress of plates of known thickness."""
+    for plate in table.deflections:
+        if plate.largest_strain is not None:
+            columns = list(columns_of(STRAIN, plate, ("omega", "wave"), {"wave": table.waves}))
+            yield Section(
+                title=f"Largest strain and stress at the faces of body {plate.number}, per unit elevation",
+                headings=headings_of(columns, ""),
+                rows=rows_of(STRAIN, columns, shown),
+            )
 
 
 def _missed(peak: UnresolvedPeak) -> str:

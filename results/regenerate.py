@@ -46,7 +46,7 @@ STUDIED = {
 SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes of which the most telling pictures alone are kept, and smaller, with their names.
 FEW = {"ice_floe": "plan_*.png"}
-SMALL = PictureOptions(width=480, dpi=60)
+SMALL = PictureOptions(width=420, dpi=52)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 

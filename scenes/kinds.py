@@ -9,7 +9,7 @@ from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -30,7 +30,7 @@ def runner_of(scene: Scene) -> StagedRun[Any, Any]:
         from hydroelastic.scenes.tank.run import run_tank
 
         return run_tank
-    if isinstance(scene, RoundTankScene):
+    if isinstance(scene, OrderedTankScene):
         from hydroelastic.scenes.round_tank.run import run_round_tank
 
         return run_round_tank
@@ -95,7 +95,7 @@ def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
         from hydroelastic.scenes.tank.check import check_tank
 
         return check_tank
-    if isinstance(scene, RoundTankScene):
+    if isinstance(scene, OrderedTankScene):
         from hydroelastic.scenes.round_tank.check import check_round_tank
 
         return check_round_tank

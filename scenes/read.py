@@ -15,10 +15,11 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.models.canal import CanalScene, is_canal
 from hydroelastic.scenes.models.level_tank import LevelTankScene, is_level_tank
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.roll import RollScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
+from hydroelastic.scenes.models.round_tank import OrderedTankScene, RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -29,7 +30,7 @@ from hydroelastic.scenes.words import nearest, proposal
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | RoundTankScene | StringScene | ThreadScene | RollScene
+Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | OrderedTankScene | StringScene | ThreadScene | RollScene
 
 SCENE_MODELS: dict[str, type[Scene]] = {
     "tank": TankScene,
@@ -193,7 +194,7 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
     Raises:
         SceneError: if it is of another kind, or the ends of the tank are open.
     """
-    if isinstance(scene, LevelTankScene | RoundTankScene):
+    if isinstance(scene, LevelTankScene | OrderedTankScene):
         remedy = "The command run takes three dimensions, with an error estimate at any accuracy.tolerance"
         raise SceneError(Problem(key="[tank]", wrong=f"{because} per metre of width", remedy=remedy))
     if not isinstance(scene, TankScene):
@@ -280,6 +281,8 @@ def _model_of(document: Document, label: str) -> type[Scene]:
         raise SceneError(problem, file=label)
     if kind == "tank" and is_round_tank(document):
         return RoundTankScene
+    if kind == "tank" and is_canal(document):
+        return CanalScene
     return LevelTankScene if kind == "tank" and is_level_tank(document) else SCENE_MODELS[kind]
 
 

@@ -16,6 +16,7 @@ from pydantic import (
 )
 
 from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
@@ -150,7 +151,7 @@ class TankParts(SceneModel):
             """Title of tables and images."""
 
         @property
-        def tank(self) -> Tank | RoundTank:
+        def tank(self) -> Any:
             """The tank, or the stretch of the sea that is drawn."""
 
         @property
@@ -242,6 +243,11 @@ class TankParts(SceneModel):
     def is_revolved(self) -> bool:
         """Whether it is a sea of revolution: its bodies are solids and plates on one vertical axis, not sections."""
         return any(isinstance(body, RevolvedFloat | SeaPlate) for body in self.body)
+
+    @property
+    def geometry(self) -> Geometry:
+        """What its section stands for."""
+        return Geometry(kind="revolved") if self.is_revolved else PLANE
 
     @property
     def analyses(self) -> tuple[Analysis, ...]:

@@ -161,9 +161,8 @@ def test_bending_modes_radiate_as_much_as_they_are_damped() -> None:
     assert max(table.energy_residual[0], table.haskind_residual[0]) < 1e-8
     # Orders do not couple, and the shapes of one do.
     coupled = np.abs(table.added_mass[0]) > 0.0
-    assert coupled[0, 2] and coupled[1, 3] and not coupled[0, 1] and not coupled[2, 4]
-    dry = [9.06889866, 20.51308691, 5.26203696, 12.24389426]
-    assert np.all(np.argsort(dry) == [2, 0, 3, 1])
+    np.testing.assert_array_equal(coupled[0], [True, False, True, False, False, False])
+    np.testing.assert_array_equal(coupled[1], [False, True, False, True, False, False])
 
 
 @pytest.mark.slow

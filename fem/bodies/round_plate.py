@@ -10,11 +10,11 @@ from functools import partial
 from math import ceil, pi
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydroelastic.fem.bodies.model import BodyModel
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import FEW_MODES, PlateLine, dry_modes
-from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.symmetry import Parity
@@ -38,13 +38,15 @@ class RoundPlateModel(BodyModel):
         plate, order, measure = self.plate, self.tank.geometry.order, self.tank.geometry.measure
         shapes = RoundShapes(plate.of_order(order), count)
         squares, bending = measure * shapes.squares, measure * shapes.bending
+        # Not asked for: half-planes have no halves.
+        parities: tuple[Parity, ...] = ("symmetric",) * shapes.count
         restoring = float(plate.hydrostatic) * self.tank.level_of(self.index).jump * squares
         return Body(
             surface=body_name(self.index + 1),
             shapes=partial(_upwards, shapes),
             wavenumber=pi * shapes.count / (plate.radius - plate.inner_radius),
             dofs=shapes.dofs,
-            parities=("symmetric",) * shapes.count,
+            parities=parities,
             motions=np.eye(shapes.count),
             stiffness=bending + restoring,
             bending_stiffness=bending,
@@ -111,8 +113,8 @@ class RoundShapes:
         self._modes = dry_modes(line, self.count + FEW_MODES)
         edge = self._modes.values(np.array([plate.radius]))[0, : self.count]
         self._factors = np.where([dof.is_rotation for dof in self.dofs], plate.radius, 1.0) / edge
-        self.squares: FloatArray = self._modes.squares[: self.count] * self._factors**2
-        self.bending: FloatArray = self._modes.bending[: self.count] * self._factors**2
+        self.squares: NDArray[np.float64] = self._modes.squares[: self.count] * self._factors**2
+        self.bending: NDArray[np.float64] = self._modes.bending[: self.count] * self._factors**2
 
     @property
     def dofs(self) -> tuple[Dof, ...]:
@@ -121,10 +123,10 @@ class RoundShapes:
         elastic = (Dof.elastic(number + 1, self._plate.order) for number in range(self.count - len(rigid)))
         return (*rigid, *elastic)[: self.count]
 
-    def values(self, radii: FloatArray, derivative: int = 0) -> FloatArray:
+    def values(self, radii: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
         """Return W, or a derivative, at radii of the plate, shape (shapes, points)."""
         inside = np.clip(radii, self._plate.inner_radius, self._plate.radius)
-        values: FloatArray = (self._modes.values(inside, derivative)[:, : self.count] * self._factors).T
+        values: NDArray[np.float64] = (self._modes.values(inside, derivative)[:, : self.count] * self._factors).T
         return values
 
 
@@ -134,6 +136,8 @@ def plate_of(body: object) -> RoundPlate:
     return body
 
 
-def _upwards(shapes: RoundShapes, points: FloatArray, normals: FloatArray, number: int) -> FloatArray:
-    upwards: FloatArray = shapes.values(points[0])[number] * normals[1]
+def _upwards(
+    shapes: RoundShapes, points: NDArray[np.float64], normals: NDArray[np.float64], number: int
+) -> NDArray[np.float64]:
+    upwards: NDArray[np.float64] = shapes.values(points[0])[number] * normals[1]
     return upwards

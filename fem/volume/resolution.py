@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.meshes.volume import VolumeSizes
+from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_POLYNOMIALS = 30
@@ -21,6 +22,8 @@ _LARGEST, _SMALLEST = 0.35, 5e-4
 _OF_WAVES, _OF_EDGES = 1.2e-7, 0.05
 # At the corners of floats over h^(4/3), as ψ ~ r^(2/3).
 _OF_CORNERS, _CORNER_ORDER = 0.05, 4.0 / 3.0
+# At the tips of baffles over h, as ψ ~ r^(1/2).
+_OF_TIPS = 0.02
 # Largest and smallest ratio of successive sizes.
 _LEAST_STEP, _MOST_STEP = 0.85, 0.3
 
@@ -108,15 +111,18 @@ def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeR
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     radians = (tolerance / (3.0 * _OF_WAVES)) ** (0.5 / degree)
     bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
-    order = _CORNER_ORDER if tank.floats else 2.0
-    edge = (0.5 * tolerance / (_OF_CORNERS if tank.floats else _OF_EDGES)) ** (1.0 / order)
+    corners = tank.floats or any(isinstance(outline, Rectangle) for outline in tank.columns)
+    order = 1.0 if tank.baffles else _CORNER_ORDER if corners else 2.0
+    part = _OF_TIPS if tank.baffles else _OF_CORNERS if corners else _OF_EDGES
+    edge = (0.5 * tolerance / part) ** (1.0 / order)
     return VolumeResolution(
         degree=degree,
         order=order,
         sizes=VolumeSizes(
             edge=min(max(edge, 4.0 * _SMALLEST), bulk),
             bulk=bulk,
-            geometry=4,
+            # Between nodes, curved cells would follow no plane triangle of a hull.
+            geometry=1 if any(one.hull and one.hull.is_triangulated for one in tank.floats) else 4,
             around=16,
         ),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),

@@ -44,6 +44,8 @@ _MOST_AROUND = 3
 _OF_EDGES, _OF_WAVES = 3.0, 1.8
 # Of the corners of floats, ψ ~ r^(2/3), it shows all; measured on floating cylinders.
 _OF_CORNERS = 1.3
+# At the tips of baffles, ψ ~ r^(1/2); measured on a baffle on the bed of a box.
+_OF_TIPS = 1.8
 # Cells up to this multiple of the size at edges belong to them.
 _AT_EDGES = 4.0
 # Of the volume's relative error, that of frequencies.
@@ -131,7 +133,7 @@ def solve_volume(
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one.pencil.liquid, some, resolution.sizes.edge)
-            edges *= _OF_EDGES if tank.plates else _OF_CORNERS
+            edges *= _OF_EDGES if tank.plates else _OF_TIPS if tank.baffles else _OF_CORNERS
             return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)

@@ -77,13 +77,13 @@ class RoundTankScene(OrderedTankScene):
 def is_round_tank(document: dict[str, Any]) -> bool:
     """Return whether a document of the kind "tank" is of revolution.
 
-    It has a radius, and floats on the axis or an outline of its bed. Other bodies, floats with a position of their
+    It has a radius, and floats on the axis or an outline of its bed, no columns and no baffles. Other bodies, floats with a position of their
     own, and beds that are not of revolution are those of a tank in three dimensions.
     """
     tank, bodies = document.get("tank"), document.get("body", [])
     if not isinstance(tank, dict) or "radius" not in tank or not isinstance(bodies, list):
         return False
-    if {"inner_radius", "bed", "model"} & tank.keys():
+    if {"inner_radius", "bed", "model"} & tank.keys() or {"column", "baffle"} & document.keys():
         return False
     on_axis = [
         isinstance(one, dict)

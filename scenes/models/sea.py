@@ -16,7 +16,11 @@ from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
-from hydroelastic.scenes.models.round_plate_checks import round_plates_are_in_range, round_plates_keep_apart
+from hydroelastic.scenes.models.round_plate_checks import (
+    analyses_take_round_plates,
+    round_plates_are_in_range,
+    round_plates_keep_apart,
+)
 from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
 from hydroelastic.scenes.models.tank_checks import STAGES
@@ -136,7 +140,7 @@ class SeaScene(TankParts):
             self,
             (
                 *STAGES,
-                (round_plates_keep_apart, round_plates_are_in_range),
+                (analyses_take_round_plates, round_plates_keep_apart, round_plates_are_in_range),
                 (attachments_hold_bodies, drag_is_heeded, export_is_possible),
             ),
         )

@@ -43,7 +43,7 @@ class OrderedTankScene(TankParts):
         """None: the meshes are those of the half-plane."""
 
     @property
-    def bed(self) -> tuple[tuple[float, float], ...] | None:
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
         """See `TankParts.bed`."""
         return self.tank.outline
 
@@ -97,7 +97,7 @@ def is_round_tank(document: dict[str, Any]) -> bool:
 
 def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
     outline = scene.tank.outline
-    if outline is None:
+    if outline is None or outline == "sphere":
         return
     depth, length = scene.liquid[0].depth, scene.tank.length
     rises = all(start[0] < end[0] for start, end in pairwise(outline))

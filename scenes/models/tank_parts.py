@@ -112,12 +112,14 @@ class RoundTank(SceneModel):
     top: Literal["free", "rigid", "pressure_release"] = Field(
         default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
     )
-    outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
+    outline: (
+        Annotated[tuple[tuple[AnyNumber, AnyNumber], ...], Field(min_length=2, max_length=MOST_VERTICES)]
+        | Literal["sphere"]
+        | None
+    ) = Field(
         default=None,
-        min_length=2,
-        max_length=MOST_VERTICES,
         description=f"2 to {MOST_VERTICES} corners [r, z] of the bed from the axis to the wall, m; by default it is "
-        "level",
+        'level; "sphere" is the part of a sphere below the still surface, whose radius R is √(2Rh − h²) at a depth h',
     )
 
     @property
@@ -235,8 +237,8 @@ class TankParts(SceneModel):
         return self.tank.ends == "open"
 
     @property
-    def bed(self) -> tuple[tuple[float, float], ...] | None:
-        """Corners of the bed from the left to the right wall, m; None where it is level."""
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
+        """Corners of the bed from the left to the right wall, m, or "sphere"; None where it is level."""
         return None
 
     @property

@@ -17,11 +17,14 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         scene: a validated scene; nothing is solved.
     """
     asked = scene.accuracy
-    bed = (
-        "level bed"
-        if scene.tank.outline is None
-        else f"bed of {len(scene.tank.outline) - 1} {'cones' if scene.is_revolved else 'planes'}"
-    )
+    outline = scene.tank.outline
+    if outline is None:
+        bed = "level bed"
+    elif outline == "sphere":
+        depth, radius = scene.liquid[0].depth, scene.tank.length
+        bed = f"bed that is part of a sphere of radius {0.5 * (radius**2 + depth**2) / depth:g} m"
+    else:
+        bed = f"bed of {len(outline) - 1} {'cones' if scene.is_revolved else 'planes'}"
     if scene.is_revolved:
         what = (
             f"A tank of revolution of radius {scene.tank.length:g} m with a {bed}, order by order in the half-plane "

@@ -71,4 +71,8 @@ def is_canal(document: dict[str, Any]) -> bool:
     of_sections = [
         isinstance(one, dict) and one.get("kind") == "float" and one.get("shape") in get_args(Shape) for one in bodies
     ]
-    return all(of_sections) and (bool(of_sections) or "outline" in tank) and not {"bed", "model"} & tank.keys()
+    return (
+        all(of_sections)
+        and (bool(of_sections) or "outline" in tank)
+        and not ({"bed", "model"} & tank.keys() or {"column", "baffle"} & document.keys())
+    )

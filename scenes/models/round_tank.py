@@ -69,6 +69,11 @@ class RoundTankScene(OrderedTankScene):
     )
 
     @property
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
+        """See `TankParts.bed`."""
+        return "sphere" if self.tank.shape == "sphere" else self.tank.outline
+
+    @property
     def is_revolved(self) -> bool:
         """See `TankParts.is_revolved`."""
         return True
@@ -77,8 +82,9 @@ class RoundTankScene(OrderedTankScene):
 def is_round_tank(document: dict[str, Any]) -> bool:
     """Return whether a document of the kind "tank" is of revolution.
 
-    It has a radius, and floats on the axis or an outline of its bed, no columns and no baffles. Other bodies, floats with a position of their
-    own, and beds that are not of revolution are those of a tank in three dimensions.
+    It has a radius, and floats on the axis, an outline of its bed or the shape of a sphere, no columns and no baffles.
+    Other bodies, floats with a position of their own, and beds that are not of revolution are those of a tank in three
+    dimensions.
     """
     tank, bodies = document.get("tank"), document.get("body", [])
     if not isinstance(tank, dict) or "radius" not in tank or not isinstance(bodies, list):
@@ -92,12 +98,15 @@ def is_round_tank(document: dict[str, Any]) -> bool:
         and "position" not in one
         for one in bodies
     ]
-    return all(on_axis) and (bool(on_axis) or "outline" in tank)
+    return all(on_axis) and (bool(on_axis) or "outline" in tank or tank.get("shape") == "sphere")
 
 
 def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
     outline = scene.tank.outline
-    if outline is None or outline == "sphere":
+    if outline is None:
+        return
+    if scene.bed == "sphere":
+        yield problem_at(("tank", "outline"), None, 'shape = "sphere" has no other bed', remedy="Leave one of them out")
         return
     depth, length = scene.liquid[0].depth, scene.tank.length
     rises = all(start[0] < end[0] for start, end in pairwise(outline))

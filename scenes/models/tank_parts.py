@@ -112,14 +112,17 @@ class RoundTank(SceneModel):
     top: Literal["free", "rigid", "pressure_release"] = Field(
         default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
     )
-    outline: (
-        Annotated[tuple[tuple[AnyNumber, AnyNumber], ...], Field(min_length=2, max_length=MOST_VERTICES)]
-        | Literal["sphere"]
-        | None
-    ) = Field(
+    shape: Literal["upright", "sphere"] = Field(
+        default="upright",
+        description="upright wall; or the part of a sphere below the still surface, whose radius is √(2Rh − h²) at a "
+        "depth h in a sphere of radius R",
+    )
+    outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
         default=None,
+        min_length=2,
+        max_length=MOST_VERTICES,
         description=f"2 to {MOST_VERTICES} corners [r, z] of the bed from the axis to the wall, m; by default it is "
-        'level; "sphere" is the part of a sphere below the still surface, whose radius R is √(2Rh − h²) at a depth h',
+        "level",
     )
 
     @property

@@ -17,7 +17,7 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         scene: a validated scene; nothing is solved.
     """
     asked = scene.accuracy
-    outline = scene.tank.outline
+    outline = scene.bed
     if outline is None:
         bed = "level bed"
     elif outline == "sphere":

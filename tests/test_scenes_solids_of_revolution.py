@@ -74,10 +74,43 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     assert response["capture_width"] == [[0.0]]
     headings = {heading for section in outcome.sections for heading in section.headings}
     assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
+    # ρgπ of long waves, MacCamy and Fuchs' force over the draught; at Ka = 0.1 both are within a quarter.
+    rows = summary["estimates"]["round_body"]["rows"]
+    assert [row["quantity"].split(",")[0] for row in rows] == [
+        "|X| of heave in long waves",
+        "b of heave by Haskind from long waves",
+        "|X| of surge by MacCamy and Fuchs",
+        "b of surge by Haskind from that",
+    ]
+    assert rows[0]["theory"] == pytest.approx(9810.0 * pi)
+    assert all(0.0 < row["difference"] < 0.5 for row in rows)
     at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
     # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
     assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]
     assert hydrostatics_table(scene).rows == at_rest.rows
+
+
+@pytest.mark.slow
+def test_results_of_round_plates_have_strain_and_every_order() -> None:
+    body = {"kind": "plate", "outline": "ring", "radius": 2.0, "inner_radius": 0.5, "youngs_modulus": 1e7}
+    outcome = run_open(
+        sea(
+            body | {"thickness": 0.05, "density": 500.0},
+            analysis=[{"kind": "response", "omega": [2.0], "positions": 20}],
+            accuracy={"tolerance": 1e-3},
+        )
+    )
+    response = outcome.summary["response"][0]
+    (plate,) = response["plates"]
+    assert response["dofs"][:2] == ["heave", "pitch"]
+    assert {"elastic 0-1", "elastic 1-1", "elastic 4-1"} <= set(response["dofs"])
+    assert plate["positions"][0] == -2.0
+    assert plate["positions"][-1] == 2.0
+    # σ = E ε/(1 − ν) at most, where both principal strains are alike, and E ε/(1 + ν) at least.
+    ratio = plate["largest_stress"][0][0] / plate["largest_strain"][0][0]
+    assert 1e7 / 1.3 < ratio < 1e7 / 0.7
+    titles = [section.title for section in outcome.sections]
+    assert "Largest strain and stress at the faces of body 1, per unit elevation" in titles
 
 
 def test_a_round_tank_with_a_float_or_a_bed_is_solved_by_order() -> None:

@@ -349,6 +349,14 @@ THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the fiel
 ), dimension="thin_float_row", prefix="thin_float")
 
 
+ROUND_BODY_ROWS = Group("rows", "values by the theory and by the field solution", (
+    Quantity("quantity", "quantity"),
+    Quantity("theory", "by the theory"),
+    Quantity("field", "by the field solution"),
+    Quantity("difference", "relative difference of the theory from the field solution", "1"),
+), dimension="round_body_row", prefix="round_body")
+
+
 def _poles(key: str, meaning: str, unit: str) -> Quantity:
     name = f"endless_float_{key}_entry"
     return Quantity(key, meaning, unit, dimensions=(name, f"{name}_2"))
@@ -365,6 +373,9 @@ ESTIMATES = Group("estimates", "older theories beside the field solution", (
         _poles("resonances", "complex frequencies of heave and of the second pole, parts", "rad/s"),
         _poles("residues", "residues of both, parts", "1"),
     ), note="`null` for other floats"),
+    Group("round_body", "closed forms and older estimates of a lone body of revolution", (ROUND_BODY_ROWS,),
+        record=lambda solution: {"rows": solution.round_body},
+        note="long waves, Haskind's relation, MacCamy and Fuchs of upright cylinders, the rigid disc"),
 ), record=lambda solution: solution, prefix="")
 
 

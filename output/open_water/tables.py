@@ -80,6 +80,18 @@ def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Itera
             ),
             compares=True,
         )
+    rows = summary["estimates"]["round_body"]["rows"]
+    if rows:
+        yield Section(
+            title="Closed forms and older estimates beside the field solution",
+            headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
+            rows=[
+                (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
+                for row in rows
+            ],
+            lines=("Of surge the largest difference of all frequencies, in parts of the largest value.",),
+            compares=True,
+        )
     if infinite is not None:
         yield Section(
             title="The float of infinite draught of the paper, by its closed form",

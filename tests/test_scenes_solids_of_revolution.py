@@ -74,7 +74,8 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     assert response["capture_width"] == [[0.0]]
     headings = {heading for section in outcome.sections for heading in section.headings}
     assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
-    # ρgπ of long waves, MacCamy and Fuchs' force over the draught; at Ka = 0.1 both are within a quarter.
+    # ρgπ of long waves, MacCamy and Fuchs' force over the draught: at Ka = 0.1 a fifth and a quarter too large, so that
+    # their squares, the dampings, are 1.42 and 1.59 times those of the field.
     rows = summary["estimates"]["round_body"]["rows"]
     assert [row["quantity"].split(",")[0] for row in rows] == [
         "|X| of heave in long waves",
@@ -83,7 +84,7 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
         "b of surge by Haskind from that",
     ]
     assert rows[0]["theory"] == pytest.approx(9810.0 * pi)
-    assert all(0.0 < row["difference"] < 0.5 for row in rows)
+    np.testing.assert_allclose([row["difference"] for row in rows], [0.193, 0.424, 0.262, 0.592], atol=2e-3)
     at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
     # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
     assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]

@@ -29,6 +29,9 @@ _BISECTIONS = 100
 _GROWTH_ALONG = 1.8**0.5 - 1.0
 # A part of an element less than this one is no element more, as in gmsh.
 _ROUNDED_DOWN = 0.01
+# Elements of the same length grow by this part along a line: among triangles that are equal gmsh chooses by rounding,
+# and leaves rows twice as coarse where it does not take one after the other. Measured on 40 tanks with a moved beam.
+_UNEQUAL = 1e-9
 
 
 def outermost_ring(outline: Outline, graded: GradedPoint, largest_turn: float) -> float:
@@ -239,7 +242,8 @@ def straight_elements(
         density = 1.0 / falling
         reached = np.append(0.0, np.cumsum(0.5 * (density[:-1] + density[1:]) * np.diff(place)))
         count = max(1, ceil(reached[-1] - _ROUNDED_DOWN))
-        found.append(np.interp(np.linspace(0.0, reached[-1], count + 1), reached, part[own]))
+        equal = np.linspace(0.0, 1.0, count + 1)
+        found.append(np.interp(reached[-1] * (equal - _UNEQUAL * equal * (1.0 - equal)), reached, part[own]))
     return found
 
 

@@ -46,6 +46,10 @@ from hydroelastic.physics.tank import Tank
 _ON_RAY, _ON_ARC, _ON_AXIS = 40, 12, 20
 # Error of the trapezoidal rule along the ray.
 _RULE = 1e-9
+# Angle over α within which resonances of the water are sought: the continuous spectrum is at half of α.
+_SEARCHED = 0.35
+# Factor of a resonance ω beside it, within which the water mainly oscillates as in it.
+_BESIDE = 1.0 - 0.02j
 # Part of H that a resonance of the water adds to it at the same frequency, below which it is none.
 _NO_PEAK = 1e-8
 # Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.
@@ -146,20 +150,21 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             full=full, reduced=lambda omega: solver.hydrodynamic(omega**2), difference=relative_difference
         )
 
-        def swept_along(ray: Ray) -> float:
-            """Make the basis accurate on the ray, the arc beyond it and the real axis; return its largest error."""
+        def swept_along(ray: Ray, further: np.ndarray) -> float:
+            """Make the basis accurate on the ray, the arc beyond it and at further ω; return its largest error."""
             along = np.geomspace(low, high, _ON_RAY) * ray.turned
-            chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], axis])
+            chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], further])
             return float(sweep(hydrodynamics, chosen, problem.tolerance).errors.max())
 
         ray = _widest_ray(np.zeros(0), scaling)
-        basis_error = swept_along(ray)
-        resonances, _ = _resonances(solver, (low, high), 0.5 * scaling)
+        basis_error = swept_along(ray, axis)
+        resonances, _ = _resonances(solver, (low, high), _SEARCHED * scaling)
         if len(resonances):
             for omega in resonances:
-                solver.radiation(omega.real**2)
-            ray = _widest_ray(_resonances(solver, (low, high), 0.5 * scaling)[0], scaling)
-            basis_error = swept_along(ray)
+                # The solution beside it is nearly the resonance, and not all rounding.
+                solver.radiation((omega * _BESIDE) ** 2)
+            ray = _widest_ray(_resonances(solver, (low, high), _SEARCHED * scaling)[0], scaling)
+            basis_error = max(basis_error, swept_along(ray, np.zeros(0)))
         resonances, residues = _resonances(solver, (low, high), ray.angle)
         with problem.watch.stage("memory"):
             far = model.scale.unknown_masses(limit)

@@ -8,8 +8,9 @@ from functools import partial
 
 import numpy as np
 
+from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.meshes.plan_loops import Mirrors

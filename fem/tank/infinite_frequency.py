@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from mpi4py import MPI
-from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.stopwatch import Report, Stopwatch
@@ -243,6 +242,8 @@ def _added_mass(
         diagonal = np.diag(added)[relevant]
         causes.append(added_mass_errors(pencil.liquid, own, diagonal, tank, resolution, half=parity is not None))
     errors = joined_errors(causes)
+    from scipy.linalg import block_diag  # slow to import
+
     turns = block_diag(*(bodies[index].motions for index in tank.rigid))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
     return InfiniteFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=errors.largest_total), errors

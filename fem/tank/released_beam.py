@@ -1,8 +1,8 @@
 """The infinite-frequency limit of one uniform beam between free water, without a mesh.
 
-Under ψ = 0 on the water beside it, the liquid under a beam in a rectangle is known by Green's function of the tank: in
-the dry modes of the beam its added mass M_a is that of `modal.beam.pressure_release`, which converges exponentially. The
-modes follow from
+With ψ = 0 on the water beside it, the liquid under a beam in a rectangle is known by Green's function of the tank: in
+the dry modes of the beam its added mass M_a is that of `modal.beam.pressure_release`, which converges exponentially.
+The modes follow from
 
     K a = λ (M + M_a) a        rigid motions without stiffness follow the others and are condensed
 """
@@ -58,8 +58,8 @@ def released_modes(tank: Tank, count: int) -> ReleasedModes | None:
         count: number of dry modes.
 
     Returns:
-        All modes; ``None`` where the liquid is not that of one uniform beam with free ends between free water, or is too
-        shallow for the expansion.
+        All modes; ``None`` where the liquid is not that of one uniform beam with free ends between free water, or is
+        too shallow for the expansion.
     """
     alone = is_plain(tank) and len(tank.bodies) == 1 and tank.geometry.kind == "plane" and tank.top == "free"
     if not alone or type(tank.bodies[0]) is not Beam or not tank.beams[0].is_uniform or tank.beams[0].ends != "free":

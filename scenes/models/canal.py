@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Literal
 
 from pydantic import Field
 
@@ -14,7 +14,6 @@ from hydroelastic.scenes.models.bodies import (
     Float,
     PositiveNumber,
     SceneModel,
-    Shape,
 )
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
@@ -58,21 +57,3 @@ class CanalScene(OrderedTankScene):
     def geometry(self) -> Geometry:
         """See `TankParts.geometry`."""
         return Geometry(kind="extruded", width=self.tank.width)
-
-
-def is_canal(document: dict[str, Any]) -> bool:
-    """Return whether a document of the kind "tank" is of one section over a finite width.
-
-    It has a length and a width, and floats with the shape of a section or an outline of its bed.
-    """
-    tank, bodies = document.get("tank"), document.get("body", [])
-    if not isinstance(tank, dict) or not {"length", "width"} <= tank.keys() or not isinstance(bodies, list):
-        return False
-    of_sections = [
-        isinstance(one, dict) and one.get("kind") == "float" and one.get("shape") in get_args(Shape) for one in bodies
-    ]
-    return (
-        all(of_sections)
-        and (bool(of_sections) or "outline" in tank)
-        and not ({"bed", "model"} & tank.keys() or {"column", "baffle"} & document.keys())
-    )

@@ -13,7 +13,7 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
 from hydroelastic.physics.tank import ROUND_OFF
-from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, SOLID_FORMATS, LevelTankParts
+from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
     middle_of,
@@ -23,6 +23,7 @@ from hydroelastic.scenes.models.level_tank_physics import (
 )
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
+from hydroelastic.scenes.models.tank_kinds import PLAN_KEYS
 from hydroelastic.scenes.models.volume_checks import (
     LEAST_DEPTH,
     columns_lie_in_the_tank,
@@ -88,14 +89,6 @@ class LevelTankScene(LevelTankParts):
     def _parts_fit(self) -> LevelTankScene:
         require_fit(self, STAGES)
         return self
-
-
-def is_level_tank(document: dict[str, Any]) -> bool:
-    """Return whether a document of the kind "tank" is of three dimensions: by a key of its plan, or a plate."""
-    tank, bodies = document.get("tank"), document.get("body")
-    of_plan = isinstance(tank, dict) and any(key in tank for key in PLAN_KEYS)
-    plates = isinstance(bodies, list) and any(isinstance(one, dict) and one.get("kind") == "plate" for one in bodies)
-    return of_plan or plates
 
 
 def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:

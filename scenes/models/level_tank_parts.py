@@ -39,8 +39,6 @@ from hydroelastic.scenes.models.volume_floats import VolumeFloat
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
 OutlineName: TypeAlias = Literal["rectangle", "strip", "disc", "ring", "polygon"]
 
-PLAN_KEYS = ("width", "radius", "inner_radius", "plan", "shape")
-"""Keys of [tank] by which a tank is one in three dimensions."""
 
 SOLID_FORMATS = (".step", ".stp", ".brep")
 """Files of solids that gmsh reads by OpenCASCADE."""

@@ -169,7 +169,7 @@ def _meet(one: _Bounds, other: _Bounds) -> bool:
 def _is_inside(plan: Plan, bounds: _Bounds, is_round: bool) -> bool:
     (left, right), (front, back) = bounds
     if isinstance(plan, Box):
-        return 0.0 < left and right < plan.length and 0.0 < front and back < plan.width
+        return left > 0.0 and right < plan.length and front > 0.0 and back < plan.width
     if isinstance(plan, Cylinder):
         reach = 0.5 * (right - left if is_round else hypot(right - left, back - front))
         away = hypot(0.5 * (left + right), 0.5 * (front + back))

@@ -39,14 +39,14 @@ class RoundPlateModel(BodyModel):
         shapes = RoundShapes(plate.of_order(order), count)
         squares, bending = measure * shapes.squares, measure * shapes.bending
         # Not asked for: half-planes have no halves.
-        parities: tuple[Parity, ...] = ("symmetric",) * shapes.count
+        symmetric: Parity = "symmetric"
         restoring = float(plate.hydrostatic) * self.tank.level_of(self.index).jump * squares
         return Body(
             surface=body_name(self.index + 1),
             shapes=partial(_upwards, shapes),
             wavenumber=pi * shapes.count / (plate.radius - plate.inner_radius),
             dofs=shapes.dofs,
-            parities=parities,
+            parities=(symmetric,) * shapes.count,
             motions=np.eye(shapes.count),
             stiffness=bending + restoring,
             bending_stiffness=bending,

@@ -45,8 +45,8 @@ STUDIED = {
 # At the width that pages show.
 SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes of which the most telling pictures alone are kept, and smaller, with their names.
-FEW = {"ice_floe": "plan_*.png", "ship_tank": "mode_001.png", "spherical_tank": "mode_001.png"}
-SMALL = PictureOptions(width=420, dpi=52)
+FEW = {"ice_floe": "*response_1.png", "ship_tank": "mode_001.png", "spherical_tank": "mode_001.png"}
+SMALL = PictureOptions(width=320, dpi=40)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 

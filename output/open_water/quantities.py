@@ -223,11 +223,12 @@ PLATES = Group("plates", "the deflection of each beam, and of each round plate a
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
         phase=CREST),
     joined_array("largest_strain", "largest principal strain at the faces of body {.number} per unit elevation",
-        "omega wave", "omega wave_direction wave", unit="1/m", short="largest strain", variable="largest_strain_of_body_{.number}",
+        "omega wave", "omega wave_direction wave", unit="1/m", short="largest strain",
+        variable="largest_strain_of_body_{.number}",
         note="over the whole plate and all times; `null` of beams, and of plates without `thickness`"),
     joined_array("largest_stress", "largest principal stress at the faces of body {.number} per unit elevation",
-        "omega wave", "omega wave_direction wave", unit="Pa/m", short="largest stress", variable="largest_stress_of_body_{.number}",
-        note="as `largest_strain`"),
+        "omega wave", "omega wave_direction wave", unit="Pa/m", short="largest stress",
+        variable="largest_stress_of_body_{.number}", note="as `largest_strain`"),
 ), record=lambda table: list(table.deflections), dimension="plate")
 ALONG_HULL = "point_on_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (

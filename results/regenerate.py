@@ -46,7 +46,7 @@ STUDIED = {
 SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes of which the most telling pictures alone are kept, and smaller, with their names.
 FEW = {"ice_floe": "*response_1.png", "ship_tank": "mode_001.png", "spherical_tank": "mode_001.png"}
-SMALL = PictureOptions(width=360, dpi=50)
+SMALL = PictureOptions(width=400, dpi=50)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 

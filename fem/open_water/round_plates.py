@@ -53,12 +53,14 @@ def joined(parts: list[RoundDeflection]) -> RoundDeflection:
     return replace(parts[0], derivatives=np.concatenate([part.derivatives for part in parts], axis=-2))
 
 
-def along_diameter(tank: Tank, found: RoundDeflection) -> PlateDeflection:
+def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDeflection:
     """Return the deflection of a round plate along the diameter of the waves, and its largest strain and stress.
 
     Args:
         tank: the sea in SI units.
         found: the deflections of all orders.
+        error: of the deflection relative to the larger of it and the wave, shape (frequencies,); those of its
+            derivatives are not estimated.
     """
     plate = plate_of(tank.bodies[found.body])
     rigidity = plate.flexural_rigidity if plate.bends else 0.0
@@ -80,6 +82,9 @@ def along_diameter(tank: Tank, found: RoundDeflection) -> PlateDeflection:
         deflection=whole(deflection),
         bending_moment=whole(moment),
         shear_force=whole(rigidity * slope, -1.0),
+        deflection_error=error[:, None] * np.maximum(np.abs(deflection).max(axis=(-2, -1)), 1.0),
+        bending_moment_error=np.full(moment.shape[:2], np.nan),
+        shear_force_error=np.full(moment.shape[:2], np.nan),
         largest_strain=strain,
         largest_stress=stress,
     )

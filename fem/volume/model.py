@@ -42,9 +42,7 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
         for plate in tank.plates
     )
     along, across = (
-        mirror
-        if mirror is not None and all(_is_in_plane(one, axis, mirror) for one in tank.floats)
-        else None
+        mirror if mirror is not None and all(_is_in_plane(one, axis, mirror) for one in tank.floats) else None
         for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
     )
     along, across = (

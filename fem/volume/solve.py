@@ -23,8 +23,10 @@ from hydroelastic.fem.plan.classes import (
     solve_classes,
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
@@ -134,7 +136,16 @@ def solve_volume(
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one.pencil.liquid, some, resolution.sizes.edge)
             edges *= _OF_EDGES if tank.plates else _OF_TIPS if tank.baffles else _OF_CORNERS
-            return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
+
+            def pressures_of(plate: PlanPlate) -> np.ndarray:
+                loads, potentials = plate_loads(one.pencil.liquid, plate), [mode.potential.array_r for mode in some]
+                found: np.ndarray = model.images * one.pencil.stiffness.comm.tompi4py().allreduce(
+                    np.array(potentials) @ loads.T
+                )
+                return found
+
+            plates = plate_errors(model.plates[one.parity], some, pressures_of)
+            return np.array([model.images * edges, model.images * waves, plates])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)
         coarser = replace(model, resolution=resolution.coarser)
@@ -261,14 +272,3 @@ def _liquid_errors(liquid: LiquidSpace, modes: list[Mode], edge: float) -> tuple
     parts = np.array([cells[:, small].sum(axis=1), cells[:, ~small].sum(axis=1)])
     edges, waves = 0.5 * mesh.comm.allreduce(parts)
     return edges, _OF_WAVES * waves
-
-
-def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
-    errors = np.zeros(len(modes))
-    first = 0
-    for plate in plates:
-        last = first + plate.body.size
-        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
-        errors += plate.missing_energy(amplitudes)
-        first = last
-    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -16,19 +16,21 @@ from pydantic import BaseModel, Discriminator, Tag
 from pydantic.fields import FieldInfo
 
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST
+from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.values import OR_SWEEP, Sweep
 from hydroelastic.scenes.read import SCENE_MODELS
 
 FOLDER = Path(__file__).parent / "reference"
-PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene, "round_tank": RoundTankScene}
+PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene, "round_tank": RoundTankScene, "canal": CanalScene}
 """The model of each page; a tank in three dimensions has the kind of one in two."""
 TITLES = {
     "tank": "Keys of a tank or of open water",
     "sea": "Keys of bodies in the sea",
     "level_tank": "Keys of a tank in three dimensions",
     "round_tank": "Keys of a tank of revolution with floats or a shaped bed",
+    "canal": "Keys of a tank of one section over a finite width",
     "string": "Keys of a hanging string",
     "thread": "Keys of a flexible thread",
     "roll": "Keys of a ship on a swell",
@@ -38,6 +40,7 @@ GUIDES = {
     "sea": "scenes.md",
     "level_tank": "scenes_three_dimensions.md",
     "round_tank": "scenes_three_dimensions.md",
+    "canal": "scenes_three_dimensions.md",
     "string": "scenes_strings_and_ships.md",
     "thread": "scenes_threads.md",
     "roll": "scenes_strings_and_ships.md",

@@ -35,6 +35,8 @@ def of_whole_solids(group: Group) -> Group:
 
 
 def _whole(part: Quantity) -> Quantity:
-    unit = None if part.unit is None else whole_unit(part.unit)
+    # Bending moments of plates are per metre of width like those of beams.
+    stays = part.unit is None or "per metre of width" in part.meaning
+    unit = part.unit if stays or part.unit is None else whole_unit(part.unit)
     meaning = re.sub(r"\broll\b", "pitch", part.meaning)
     return replace(part, meaning=meaning, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))

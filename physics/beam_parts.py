@@ -19,6 +19,25 @@ class Section:
     flexural_rigidity: float
     mass_per_length: float
 
+    def stiffness(self, wavenumber: float) -> float:
+        """EI k⁴ of waves e^{ikx} along it."""
+        return self.flexural_rigidity * wavenumber**4
+
+
+@dataclass(frozen=True, kw_only=True)
+class StretchedSection(Section):
+    """A part under tension.
+
+    Attributes:
+        tension: T per metre of width, N/m.
+    """
+
+    tension: float
+
+    def stiffness(self, wavenumber: float) -> float:
+        """EI k⁴ + T k² of waves e^{ikx} along it."""
+        return super().stiffness(wavenumber) + self.tension * wavenumber**2
+
 
 @dataclass(frozen=True, kw_only=True)
 class Joint:

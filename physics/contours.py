@@ -128,6 +128,26 @@ def root(value: Callable[[float], float], first: float, last: float) -> float:
     return float(brentq(value, first, last, xtol=tolerance, rtol=4.0 * float(np.finfo(float).eps), maxiter=1000))
 
 
+def bowl_arc(depth: float, radius: float) -> Arc:
+    """Return the circle about x = 0 from (0, −depth) to (radius, 0): the section of a sphere, filled to that depth."""
+    whole = 0.5 * (radius**2 + depth**2) / depth
+    low, high = -0.5 * np.pi, np.arctan2(depth - whole, radius)
+
+    def along(t: Array) -> tuple[Array, Array]:
+        angle = low + (high - low) * t
+        return np.cos(angle), np.sin(angle)
+
+    def curve(t: Array) -> Array:
+        cosine, sine = along(t)
+        return np.column_stack([whole * cosine, whole * (1.0 + sine) - depth])
+
+    def velocity(t: Array) -> Array:
+        cosine, sine = along(t)
+        return whole * (high - low) * np.column_stack([-sine, cosine])
+
+    return Arc(curve=curve, velocity=velocity, start=(0.0, -depth), end=(radius, 0.0))
+
+
 def straight_arc(start: Point, end: Point) -> Arc:
     """Return the segment between two points."""
     first, step = np.array(start), np.array(end) - np.array(start)

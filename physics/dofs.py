@@ -17,15 +17,16 @@ class Dof(str):
     """A degree of freedom by its name, as Capytaine's but for the capital.
 
     "heave", "sway", "roll" and "pitch" are rigid motions, "hinge 1" … turn a beam about its hinges, "elastic 1" … are
-    its dry modes. Where several bodies move, the number of the body is in front: "body_2__elastic 1".
+    its dry modes, "elastic 2-1" … those of a round plate with two nodal diameters. Where several bodies
+    move, the number of the body is in front: "body_2__elastic 1".
     """
 
     __slots__ = ()
 
     @classmethod
-    def elastic(cls, number: int) -> Dof:
-        """An elastic dry mode, counted from 1."""
-        return cls(f"elastic {number}")
+    def elastic(cls, number: int, order: int | None = None) -> Dof:
+        """An elastic dry mode, counted from 1; of a round plate among those with `order` nodal diameters."""
+        return cls(f"elastic {number}" if order is None else f"elastic {order}-{number}")
 
     @classmethod
     def hinge(cls, number: int) -> Dof:

@@ -40,11 +40,11 @@ class LevelPiece:
         return self.beam, self.jump, self.restored, self.layers
 
     def squared_frequency(self, wavenumber: float) -> float:
-        """λ of a wave: (EI k⁴ + Δρ)/(m + Σ ρⱼ/(k tanh khⱼ)), the beam's terms where there is one."""
+        """λ of a wave: (EI k⁴ + Δρ)/(m + Σ ρⱼ/(k tanh khⱼ)), the beam's terms where there is one, and T k²."""
         liquid = sum(density / (wavenumber * tanh(wavenumber * depth)) for density, depth in self.layers)
         if self.beam is None:
             return self.jump / liquid
-        stiffness = self.beam.flexural_rigidity * wavenumber**4 + float(self.restored) * self.jump
+        stiffness = self.beam.stiffness(wavenumber) + float(self.restored) * self.jump
         return stiffness / (self.beam.mass_per_length + liquid)
 
     def wavenumber(self, squared_frequency: float) -> float:

@@ -140,7 +140,8 @@ class Tank:
         phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
         attachments: springs and dampers that hold the bodies, in SI units.
         geometry: what the section stands for; of revolution, x is the distance from the axis.
-        bed: corners (x, y) of the bed from the left to the right wall, m; ``None`` where it is level.
+        bed: corners (x, y) of the bed from the left to the right wall, m; "sphere" of a tank of revolution that is
+            the part of a sphere under the surface; ``None`` where it is level.
     """
 
     length: float
@@ -153,7 +154,7 @@ class Tank:
     phase_at: float = 0.0
     attachments: tuple[Attachment, ...] = ()
     geometry: Geometry = PLANE
-    bed: tuple[tuple[float, float], ...] | None = None
+    bed: tuple[tuple[float, float], ...] | Literal["sphere"] | None = None
 
     @property
     def units(self) -> Scales:
@@ -202,7 +203,9 @@ class Tank:
             layers=layers,
             levels=levels,
             geometry=replace(self.geometry, width=self.geometry.width / units.length),
-            bed=None if self.bed is None else tuple((x / units.length, y / units.length) for x, y in self.bed),
+            bed=tuple((x / units.length, y / units.length) for x, y in self.bed)
+            if isinstance(self.bed, tuple)
+            else self.bed,
             bodies=tuple(
                 body.scaled(units, places[index].start, places[index].end) for index, body in enumerate(self.bodies)
             ),

@@ -44,6 +44,9 @@ STUDIED = {
 }
 # At the width that pages show.
 SHOWN = PictureOptions(width=720, dpi=85)
+# Scenes of which the most telling pictures alone are kept, and smaller, with their names.
+FEW = {"ice_floe": "*response_1.png", "ship_tank": "mode_001.png", "spherical_tank": "mode_001.png"}
+SMALL = PictureOptions(width=400, dpi=50)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 
@@ -56,7 +59,7 @@ def regenerate(name: str) -> str:
     """
     scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
-        outcome = run_scene(scene, out=Path(scratch) / name, images=SHOWN)
+        outcome = run_scene(scene, out=Path(scratch) / name, images=SMALL if name in FEW else SHOWN)
         assert outcome.folder is not None
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
@@ -73,7 +76,7 @@ def regenerate(name: str) -> str:
                 keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
         else:
             # Frames of an animation lie in a folder of their own and stay out.
-            for drawn in sorted(pictures.glob("*.png")):
+            for drawn in sorted(pictures.glob(FEW.get(name, "*.png"))):
                 keep_picture(drawn, kept / drawn.name)
     if name in STUDIED:
         assert isinstance(scene, TankScene)

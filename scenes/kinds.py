@@ -26,9 +26,9 @@ def runner_of(scene: Scene) -> StagedRun[Any, Any]:
 
         return run_tank
     if scene.kind == "tank":
-        from hydroelastic.scenes.models.round_tank import RoundTankScene
+        from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
-        if isinstance(scene, RoundTankScene):
+        if isinstance(scene, OrderedTankScene):
             from hydroelastic.scenes.round_tank.run import run_round_tank
 
             return run_round_tank
@@ -93,9 +93,9 @@ def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
 
         return check_tank
     if scene.kind == "tank":
-        from hydroelastic.scenes.models.round_tank import RoundTankScene
+        from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
-        if isinstance(scene, RoundTankScene):
+        if isinstance(scene, OrderedTankScene):
             from hydroelastic.scenes.round_tank.check import check_round_tank
 
             return check_round_tank

@@ -18,7 +18,7 @@ from hydroelastic.scenes import models
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.models.tank_kinds import is_level_tank, is_round_tank
+from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write, how_to_write_line
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.words import nearest, proposal
@@ -26,14 +26,14 @@ from hydroelastic.scenes.words import nearest, proposal
 if TYPE_CHECKING:
     from hydroelastic.scenes.models.level_tank import LevelTankScene
     from hydroelastic.scenes.models.roll import RollScene
-    from hydroelastic.scenes.models.round_tank import RoundTankScene
+    from hydroelastic.scenes.models.round_tank import OrderedTankScene
     from hydroelastic.scenes.models.sea import SeaScene
     from hydroelastic.scenes.models.string import StringScene
     from hydroelastic.scenes.models.thread import ThreadScene
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = "TankScene | SeaScene | LevelTankScene | RoundTankScene | StringScene | ThreadScene | RollScene"
+Scene: TypeAlias = "TankScene | SeaScene | LevelTankScene | OrderedTankScene | StringScene | ThreadScene | RollScene"
 
 
 class _SceneModels(Mapping[str, "type[Scene]"]):
@@ -297,6 +297,10 @@ def _model_of(document: Document, label: str) -> type[Scene]:
         from hydroelastic.scenes.models.round_tank import RoundTankScene
 
         return RoundTankScene
+    if kind == "tank" and is_canal(document):
+        from hydroelastic.scenes.models.canal import CanalScene
+
+        return CanalScene
     if kind == "tank" and is_level_tank(document):
         from hydroelastic.scenes.models.level_tank import LevelTankScene
 

@@ -8,7 +8,9 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER
 
 SCHEMA_FILE = SHIPPED_FOLDER / "schema.json"
@@ -17,7 +19,7 @@ SCHEMA_FILE = SHIPPED_FOLDER / "schema.json"
 
 def scene_schema() -> dict[str, Any]:
     """Return the schema; of what depends on several keys it knows nothing."""
-    models = (*SCENE_MODELS.values(), LevelTankScene)
+    models = (*SCENE_MODELS.values(), LevelTankScene, RoundTankScene, CanalScene)
     references, schema = models_json_schema([(model, "validation") for model in models])
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

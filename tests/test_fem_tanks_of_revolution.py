@@ -88,6 +88,36 @@ def test_a_cone_of_45_degrees() -> None:
     assert of_order(solution, 1)[1] == pytest.approx(4.68926499, rel=2e-9)
 
 
+def test_a_spherical_tank_half_full() -> None:
+    """ω²R/g of the orders 1, 2 and 0 (P. McIver 1989, J. Fluid Mech. 201, 243, five digits)."""
+    solution = solve_by_order(replace(round_tank(3.0, 3.0), bed="sphere"), tolerance=1e-4, modes=3)
+    found = [(mode.order, mode.omega**2 * 3.0 / GRAVITY) for mode in solution.modes]
+    assert found == [
+        (1, pytest.approx(1.56016, abs=1e-5)),
+        (2, pytest.approx(2.81969, abs=1e-5)),
+        (0, pytest.approx(3.74517, abs=1e-5)),
+    ]
+
+
+@pytest.mark.slow
+def test_a_spherical_tank_is_the_limit_of_many_cones() -> None:
+    """Less than half full: the difference falls like the square of the number of cones."""
+    radius, depth = 1.0, 0.6
+    surface = float(np.sqrt(2.0 * depth - depth**2))
+    sphere = solve_by_order(replace(round_tank(surface, depth), bed="sphere"), tolerance=1e-6, modes=3)
+    differences = []
+    for count in (12, 24):
+        angles = np.linspace(0.0, np.arcsin(surface), count + 1)
+        bed = [(float(np.sin(angle)), radius - depth - float(np.cos(angle))) for angle in angles]
+        bed = [(0.0, -depth), *bed[1:-1], (surface, 0.0)]
+        cones = solve_by_order(replace(round_tank(surface, depth), bed=tuple(bed)), tolerance=1e-6, modes=3)
+        differences.append(
+            [one.omega / other.omega - 1.0 for one, other in zip(cones.modes, sphere.modes, strict=True)]
+        )
+    ratios = np.array(differences[0]) / np.array(differences[1])
+    np.testing.assert_allclose(ratios, 4.0, rtol=0.1)
+
+
 @pytest.mark.parametrize("case", FLOATS[:1] + [pytest.param(case, marks=pytest.mark.slow) for case in FLOATS[1:]])
 def test_a_floating_cylinder_in_a_round_tank(case: dict[str, Any]) -> None:
     """Heave couples with waves of order 0, surge and pitch with those of order 1; surge has no stiffness."""

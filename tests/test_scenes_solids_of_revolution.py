@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, tanh
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.models.tank_kinds import is_round_tank
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_kinds import is_canal, is_round_tank
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank
 from hydroelastic.scenes.tank.check_tables import hydrostatics_table
+from hydroelastic.scenes.tank.run import run_tank
 
 CYLINDER: dict[str, Any] = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 1.0}
 WATER: list[dict[str, Any]] = [{"density": 1000.0, "depth": 10.0}]
@@ -71,10 +75,44 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     assert response["capture_width"] == [[0.0]]
     headings = {heading for section in outcome.sections for heading in section.headings}
     assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
+    # ρgπ of long waves, MacCamy and Fuchs' force over the draught: at Ka = 0.1 a fifth and a quarter too large, so that
+    # their squares, the dampings, are 1.42 and 1.59 times those of the field.
+    rows = summary["estimates"]["round_body"]["rows"]
+    assert [row["quantity"].split(",")[0] for row in rows] == [
+        "|X| of heave in long waves",
+        "b of heave by Haskind from long waves",
+        "|X| of surge by MacCamy and Fuchs",
+        "b of surge by Haskind from that",
+    ]
+    assert rows[0]["theory"] == pytest.approx(9810.0 * pi)
+    np.testing.assert_allclose([row["difference"] for row in rows], [0.193, 0.424, 0.262, 0.592], atol=2e-3)
     at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
     # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
     assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]
     assert hydrostatics_table(scene).rows == at_rest.rows
+
+
+@pytest.mark.slow
+def test_results_of_round_plates_have_strain_and_every_order() -> None:
+    body = {"kind": "plate", "outline": "ring", "radius": 2.0, "inner_radius": 0.5, "youngs_modulus": 1e7}
+    outcome = run_open(
+        sea(
+            body | {"thickness": 0.05, "density": 500.0},
+            analysis=[{"kind": "response", "omega": [2.0], "positions": 20}],
+            accuracy={"tolerance": 1e-3},
+        )
+    )
+    response = outcome.summary["response"][0]
+    (plate,) = response["plates"]
+    assert response["dofs"][:2] == ["heave", "pitch"]
+    assert {"elastic 0-1", "elastic 1-1", "elastic 4-1"} <= set(response["dofs"])
+    assert plate["positions"][0] == -2.0
+    assert plate["positions"][-1] == 2.0
+    # σ = E ε/(1 − ν) at most, where both principal strains are alike, and E ε/(1 + ν) at least.
+    ratio = plate["largest_stress"][0][0] / plate["largest_strain"][0][0]
+    assert 1e7 / 1.3 < ratio < 1e7 / 0.7
+    titles = [section.title for section in outcome.sections]
+    assert "Largest strain and stress at the faces of body 1, per unit elevation" in titles
 
 
 def test_a_round_tank_with_a_float_or_a_bed_is_solved_by_order() -> None:
@@ -103,6 +141,61 @@ def test_a_bed_that_does_not_fit_is_refused(outline: list[list[float]], wrong: s
         )
 
 
+def test_a_tank_of_one_section_over_a_width_is_solved_by_order() -> None:
+    """A V canal of 45 degrees: ω² = g/H across, (gk/√2) tanh(kH/√2) along; a float heaves in order 0 alone."""
+    bed = [[0.0, 0.0], [2.0, -2.0], [4.0, 0.0]]
+    document = {"tank": {"length": 4.0, "width": 7.0, "outline": bed}, "liquid": [{"density": 1000.0, "depth": 2.0}]}
+    assert is_canal(document)
+    assert not is_canal({"tank": {"length": 4.0, "width": 7.0}})
+    assert not is_canal({"tank": {"length": 4.0, "width": 7.0}, "body": [{"kind": "float", "shape": "box"}]})
+    scene = CanalScene.model_validate(document | {"accuracy": {"modes": 3, "tolerance": 1e-4}})
+    modes = run_round_tank(scene).summary["modes"]
+    k = pi / 7.0 / 2.0**0.5
+    assert [mode["order"] for mode in modes] == [1, 0, 2]
+    assert {mode["multiplicity"] for mode in modes} == {1}
+    # Both ψ are smooth.
+    assert modes[0]["omega"] == pytest.approx((9.81 * k * tanh(2.0 * k)) ** 0.5, rel=1e-6)
+    assert modes[1]["omega"] == pytest.approx((9.81 / 2.0) ** 0.5, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_without_waves_across_a_section_of_finite_width_is_the_plane() -> None:
+    body = {"kind": "float", "shape": "rectangle", "half_width": 0.5, "half_height": 0.4, "position": 1.2}
+    shared = {"liquid": [{"density": 1000.0, "depth": 2.0}], "accuracy": {"modes": 5, "tolerance": 1e-6}}
+    wide = CanalScene.model_validate(shared | {"tank": {"length": 4.0, "width": 2.5}, "body": [body]})
+    plane = TankScene.model_validate(shared | {"tank": {"length": 4.0}, "body": [body]})
+    found = [mode["omega"] for mode in run_round_tank(wide).summary["modes"] if mode["order"] == 0]
+    known = [mode["omega"] for mode in run_tank(plane).summary["modes"]]
+    assert len(found) >= 2
+    # Both to 1e-6.
+    np.testing.assert_allclose(found, known[: len(found)], rtol=2e-6)
+
+
+@pytest.mark.parametrize(
+    ("body", "wrong"),
+    [
+        ('outline = "ring", radius = 2.0, flexural_rigidity = 1e3, mass_per_area = 1.0', "a ring needs it"),
+        ('outline = "disc", radius = 2.0, mass_per_area = 1.0', "the stiffness of the plate is missing"),
+        ('outline = "disc", radius = 2.0, rigid = true, tension = 1.0, mass_per_area = 1.0', "a rigid plate has none"),
+        ('outline = "disc", radius = 2.0, tension = 1e-20, mass_per_area = 1.0', "beyond the resolution"),
+        ('outline = "rectangle", radius = 2.0, rigid = true, mass_per_area = 1.0', '"disc" or "ring"'),
+    ],
+)
+def test_round_plates_that_do_not_fit_are_refused(tmp_path: Path, body: str, wrong: str) -> None:
+    assert wrong in said(tmp_path, f'kind = "plate", {body}')
+
+
+def test_round_plates_that_overlap_are_refused(tmp_path: Path) -> None:
+    disc = 'kind = "plate", outline = "disc", radius = 2.0, rigid = true, mass_per_area = 1.0'
+    ring = 'kind = "plate", outline = "ring", radius = 4.0, inner_radius = 1.5, rigid = true, mass_per_area = 1.0'
+    assert "overlaps or touches [[body]] number 1" in said(tmp_path, f"{disc}}}, {{{ring}")
+
+
+def test_a_misspelt_solid_shape_is_told(tmp_path: Path) -> None:
+    assert 'Did you mean "cylinder"' in said(tmp_path, 'kind = "float", shape = "cylnder", radius = 1.0, draught = 1.0')
+    assert 'Did you mean "ellipse"' in said(tmp_path, 'kind = "float", shape = "elipse", half_width = 1.0')
+
+
 def said(tmp_path: Path, body: str) -> str:
     """Return the message about a body of the sea."""
     scene = tmp_path / "scene.toml"
@@ -123,7 +216,7 @@ def test_messages_name_the_keys_of_the_body_at_hand(tmp_path: Path) -> None:
     assert 'key "draught" = 12.0: the float reaches down' in said(tmp_path, f"{solid}, draught = 12.0")
     section = 'kind = "float", shape = "ellipse", half_width = 1.0, half_height = 1.0'
     assert "half_width, half_height, tail" in said(tmp_path, f"{section}, colour = 1.0")
-    assert '"beam" or "varying_beam" or "float". ' in said(tmp_path, 'kind = "boat"')
+    assert '"beam" or "varying_beam" or "float" or "plate". ' in said(tmp_path, 'kind = "boat"')
 
 
 def test_a_float_on_the_axis_over_a_sloping_bed_is_of_three_dimensions() -> None:

@@ -43,6 +43,10 @@ class BodyModel(ABC):
         """
         return 0
 
+    def elastic_shapes(self, count: int) -> int:
+        """Return how many of the lowest elastic dry modes of a body, in all azimuthal orders, are of the tank's."""
+        return count
+
     def expected_tones(self) -> tuple[float, ...]:
         """Estimate the dimensionless λ of its first elastic tone, for the choice of a mesh; empty for a rigid body."""
         return ()

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from hydroelastic.fem.bodies.model import BodyModel
+from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 
 def body_model(tank: Tank, index: int) -> BodyModel:
     """Return the model of a body of a scaled tank."""
+    if isinstance(tank.bodies[index], RoundPlate):
+        from hydroelastic.fem.bodies.round_plate import RoundPlateModel
+
+        return RoundPlateModel(tank=tank, index=index)
     if tank.bodies[index].is_elastic:
         from hydroelastic.fem.bodies.beam import BeamModel
 

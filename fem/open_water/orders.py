@@ -5,15 +5,19 @@ Heave is of order 0, surge and pitch are of order 1; higher orders scatter waves
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from math import inf
 from typing import TypeVar
 
 import numpy as np
 
+from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
@@ -28,10 +32,15 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.round_plates import along_diameter, joined
 from hydroelastic.physics.dofs import Dof, dof_names
+from hydroelastic.physics.round_plates import RoundPlate
+
+# Number of orders in which plates move as rigid bodies, too.
+_BENT = 2
 
 Solution = TypeVar(
     "Solution",
@@ -69,12 +78,16 @@ def solve_by_order(
 
 def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
     """Solve for the motions of each order (collective); see `solve_radiation`."""
-    found = [solve_radiation(problem.of_order(order), request) for order in problem.tank.orders]
+    orders = {*problem.tank.orders}
+    for body in problem.tank.bodies:
+        if isinstance(body, RoundPlate):
+            orders |= {*range(len(lowest_elastic(body, request.elastic_modes)))}
+    found = [solve_radiation(problem.of_order(order), request) for order in sorted(orders)]
     return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
 
 
 def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
-    dofs = _dofs(problem)
+    dofs = _dofs(problem, *tables)
     first = tables[0]
 
     def matrices(name: str) -> np.ndarray:
@@ -107,28 +120,33 @@ def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> Radia
 
 
 def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
-    """Solve for the motions of each order, and for the waves that fixed bodies scatter in higher orders (collective).
+    """Solve for the motions of each order, and for the waves that are scattered in higher orders (collective).
 
-    Orders are added until the scattered waves of one are below the tolerance at all frequencies.
+    Orders are added until the scattered waves of one, and the deflections of plates, are below the tolerance at all
+    frequencies.
     """
     found: list[ResponseSolution] = []
     last = max(problem.tank.orders)
-    while not found or len(found) <= last or _scatters(problem, found[-1].table):
+    while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
         found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
     return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
 
 
-def _scatters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
+def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
+    """Whether an order scatters waves or bends a plate by more than the tolerance."""
     assert table.partial_waves is not None
-    return bool(np.abs(table.partial_waves).max() > problem.tolerance)
+    found = (table.partial_waves, *(plate.derivatives[0] for plate in table.round_plates))
+    return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
 def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
-    dofs = _dofs(problem)
+    dofs = _dofs(problem, *tables)
     waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
+    plates = tuple(joined(list(parts)) for parts in zip(*(table.round_plates for table in tables), strict=True))
+    error = np.max([table.relative_error for table in tables], axis=0)
     first = tables[0]
     if len(first.waves) > 1:
         drift, drift_error = np.full((2, len(first.omega)), np.nan)
@@ -153,18 +171,22 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
-        relative_error=np.max([table.relative_error for table in tables], axis=0),
+        relative_error=error,
         missed_peaks=tuple(peaks),
-        # Each order has a curve at frequencies of its own; drawn are those that were asked for.
-        curve=None,
+        plates=tuple(along_diameter(problem.tank, plate, error) for plate in plates),
+        round_plates=plates,
     )
 
 
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
-    found = [solve_resonance(problem.of_order(order), request) for order in problem.tank.orders]
-    dofs = _dofs(problem)
+    orders: Iterable[int] = problem.tank.orders
+    if any(body.flexural_sections for body in problem.tank.bodies):
+        orders, highest = _bending_orders(problem, request)
+        request = replace(request, below=highest)
+    found = [solve_resonance(problem.of_order(order), request) for order in orders]
     tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
     omega = np.concatenate([table.omega for table in tables])
     chosen = np.argsort(np.abs(omega), kind="stable")[: request.count]
     motions = [_by_dof(dofs, [(table.dofs, table.body_amplitudes)]) for table in tables]
@@ -187,6 +209,22 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
         known=sum(one.known for one in found),
         unstable=any(one.unstable for one in found),
     )
+
+
+def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float]:
+    """Return the orders of the lowest expected resonances, and the frequency up to which these lie, rad/s (collective).
+
+    Plates bend in all orders; from the second one on the lowest frequency rises with the order.
+    """
+    lowest: list[float] = []
+    known: list[float] = []
+    while True:
+        expected = bodies_at_infinite_frequency(problem.of_order(len(lowest))).frequencies()
+        lowest.append(expected[0] if expected else inf)
+        known = sorted([*known, *expected])[: request.count]
+        highest = ABOVE * known[-1] if request.below is None else request.below
+        if len(lowest) > _BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
+            return [order for order, omega in enumerate(lowest) if omega < highest], highest
 
 
 def _joined_region(regions: list[Region]) -> Region | None:
@@ -263,9 +301,11 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
     return replace(_largest(found), table=table, error=_error(found))
 
 
-def _dofs(problem: OpenWaterProblem) -> tuple[Dof, ...]:
+def _dofs(problem: OpenWaterProblem, *tables: RadiationTable | ResponseTable | ResonanceTable) -> tuple[Dof, ...]:
     """Degrees of freedom of all orders, body by body."""
-    return dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
+    rigid = dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
+    elastic = (dof for table in tables for dof in table.dofs if dof.is_elastic)
+    return tuple(sorted((*rigid, *elastic), key=lambda dof: dof.body or 0))
 
 
 def _places(dofs: tuple[Dof, ...], own: tuple[Dof, ...]) -> np.ndarray:

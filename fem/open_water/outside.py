@@ -6,10 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hydroelastic.fem.bodies.round_plate import RoundShapes
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.physics.attachments import Attachment, OutsideForces, outside_forces
+from hydroelastic.physics.round_plates import RoundPlate
 
 
 def outside_of(basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[Attachment, ...]) -> OutsideForces:
@@ -52,11 +54,16 @@ def displacement_at(basin: OpenBasin, body: Body, index: int, point: tuple[float
     """
     length = basin.units.length
     x, y = (point[0] - basin.origin) / length, point[1] / length
-    if basin.tank.bodies[index].is_elastic:
+    plate = basin.tank.bodies[index]
+    if isinstance(plate, RoundPlate):
+        shapes = RoundShapes(plate, body.size)
+        deflection, slope = (shapes.values(np.array([x]), derivative)[:, 0] for derivative in (0, 1))
+        return np.array([deflection, np.zeros(body.size), slope])
+    if plate.is_elastic:
         beam, piece = basin.tank.beams[index], basin.tank.piece_of(index)
         place = np.array([min(max(x - piece.start, 0.0), piece.length)])
-        shapes = beam_shapes(beam, body.size)
-        deflection, slope = (shapes.tabulated(place, derivative)[:, 0] for derivative in (0, 1))
+        along = beam_shapes(beam, body.size)
+        deflection, slope = (along.tabulated(place, derivative)[:, 0] for derivative in (0, 1))
         return np.array([deflection, np.zeros(body.size), slope])
     placed = basin.tank.floats[index]
     moved = [placed.displacement(motion, np.array([[x], [y]]))[:, 0] for motion in placed.motions]

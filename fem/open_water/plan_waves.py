@@ -28,7 +28,7 @@ _RADIANS = 13.0
 
 @dataclass(frozen=True, kw_only=True)
 class PlanWaves:
-    """The elevation around solids of revolution in waves towards +x, per unit of theirs.
+    """The elevation around solids of revolution, and of round plates, in waves towards +x, per unit of theirs.
 
     Attributes:
         name: name of its files.
@@ -38,7 +38,8 @@ class PlanWaves:
         wavenumber: k, 1/m.
         phase_at: x at which the crest of the incident wave is at t = 0, m.
         orders: the scattered and radiated waves of each azimuthal order, complex, shape (orders, points).
-        waterplanes: inner and outer radius of each body in the water, m.
+        waterplanes: inner and outer radius of each rigid body in the water, m.
+        plates: radii of each elastic plate, m, shape (points,), and Wₙ there, complex, shape (orders, points).
     """
 
     name: str
@@ -49,17 +50,25 @@ class PlanWaves:
     phase_at: float
     orders: np.ndarray
     waterplanes: tuple[tuple[float, float], ...]
+    plates: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
 
     def elevation(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the complex elevation at places, NaN in bodies and beyond the largest radius; shape of x."""
+        """Return the complex elevation of water and plates at places, NaN in rigid bodies and beyond the largest
+        radius; shape of x."""
         r, angle = np.hypot(x, y), np.arctan2(y, x)
-        total = np.exp(1j * self.wavenumber * (x - self.phase_at))
-        for order, part in enumerate(self.orders):
-            total += np.interp(r, self.radii, part) * np.cos(order * angle)
+        total = np.exp(1j * self.wavenumber * (x - self.phase_at)) + _around(self.radii, self.orders, r, angle)
+        for radii, orders in self.plates:
+            total = np.where((radii[0] <= r) & (r <= radii[-1]), _around(radii, orders, r, angle), total)
         dry = r > self.radii[-1]
         for inner, outer in self.waterplanes:
             dry |= (inner < r) & (r < outer)
         return np.where(dry, np.nan, total)
+
+
+def _around(radii: np.ndarray, orders: np.ndarray, r: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Σ fₙ(r) cos nθ of functions at radii, shape (orders, points)."""
+    parts = (np.interp(r, radii, part) * np.cos(order * angle) for order, part in enumerate(orders))
+    return np.asarray(sum(parts, np.zeros(r.shape, dtype=complex)))
 
 
 def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[PlanWaves]:
@@ -72,9 +81,11 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
     """
     if table.partial_waves is None or len(table.waves) > 1 or table.waves_from != "left":
         return
-    turns = np.array([dof.is_rotation for dof in table.dofs])
-    sizes = np.where(turns, 0.0, np.abs(table.amplitudes[:, 0])).max(axis=1)
-    omega = float(table.omega[int(np.argmax(sizes))])
+    # Where plates bend most, or else bodies move most.
+    shown = [dof for dof in table.dofs if dof.is_elastic] or [dof for dof in table.dofs if not dof.is_rotation]
+    sizes = np.where([dof in shown for dof in table.dofs], np.abs(table.amplitudes[:, 0]), 0.0).max(axis=1)
+    row = int(np.argmax(sizes))
+    omega = float(table.omega[row])
     rough, band = problem.rough(), Band(lowest=omega, highest=omega)
     # From the axis to two wavelengths beyond the bodies.
     reach = max(right for _, right in (body.waterplane for body in problem.tank.bodies))
@@ -96,7 +107,7 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
     if problem.comm.rank:
         return
     radii = parts[0][0]
-    bodies = [body.waterplane for body in problem.tank.bodies]
+    bodies = [body.waterplane for body in problem.tank.bodies if not body.flexural_sections]
     yield PlanWaves(
         name=f"response_{number}",
         title=f"Waves from the left around the bodies at ω = {omega:.5g} rad/s, where a motion is largest",
@@ -106,4 +117,9 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         phase_at=problem.tank.phase_at,
         orders=np.array([np.interp(radii, r, values) for r, values in parts]),
         waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
+        plates=tuple(
+            (plate.radii, plate.derivatives[0, row, 0])
+            for plate in table.round_plates
+            if problem.tank.bodies[plate.body].flexural_sections
+        ),
     )

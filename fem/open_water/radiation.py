@@ -8,6 +8,7 @@ from math import isfinite, nan
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.bodies.registry import body_model
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
@@ -65,7 +66,11 @@ def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> Rad
 
 def reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
     """Return the number of shapes of each body, with the rigid ones and some elastic ones of each beam; 0 of floats."""
-    return tuple(len(body.rigid_motions) + elastic if body.is_elastic else 0 for body in tank.bodies)
+    counts = (body_model(tank, index).elastic_shapes(elastic) for index in range(len(tank.bodies)))
+    return tuple(
+        len(body.rigid_motions) + count if body.is_elastic else 0
+        for body, count in zip(tank.bodies, counts, strict=True)
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -247,7 +252,7 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
     """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
     if problem.tank.geometry.is_revolved:
-        matrix, error = zero_frequency_added_mass(problem)
+        matrix, error = zero_frequency_added_mass(problem, shapes)
         return replace(_limit_row(0.0, matrix, waves, error), wavenumbers=np.zeros(waves))
     unit = open_basin(problem.tank, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])

@@ -35,8 +35,10 @@ ANGLE = 1.3
 
 # A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
 _STILL = 1e-2
-# Limits of the region over the lowest and the highest expected frequency.
-_BELOW, _ABOVE = 0.3, 1.25
+# Lower limit of the region over the lowest expected frequency.
+_BELOW = 0.3
+ABOVE = 1.25
+"""Upper limit of the region over the highest expected frequency."""
 # Eigenvalues sought near each target: a few resonances and those of the continuous spectrum.
 _PER_TARGET = 8
 # Error of λ over |dλ/dα|; measured on a circle and a thin float it is smaller.
@@ -86,6 +88,7 @@ class _Found:
 
     model: OpenModel
     pairs: list[Eigenpair]
+    tried: int
 
 
 def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
@@ -116,10 +119,14 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         model = open_model(problem, band, resolution, angle=angle)
         with watch.stage("resonances"):
             search = DampedSolver(model, watch) if damped else _outgoing_search(model)
-            pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
+            pairs = []
+            for omega in values:
+                # One of the coarse mesh alone is none; the count tells whether one is missing.
+                with suppress(EigenSolverError):
+                    pairs.append(search.refined(model.squared_frequency(omega)))
         with watch.stage("errors"):
             causes = resonance_errors(model, pairs)
-        return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
+        return Attempt(result=_Found(model=model, pairs=pairs, tried=len(values)), causes=causes, resolution=resolution)
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
@@ -133,9 +140,16 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,
         error=attempt.error,
-        known=sum(map(closed.holds, known)),
+        known=_known(found, closed, known),
         unstable=bool(np.linalg.eigvalsh(scaled_stiffness(found.model.stiffness)).min(initial=0.0) < -_UNSTABLE),
     )
+
+
+def _known(found: _Found, region: Region, rough: list[complex]) -> int:
+    """Number of resonances that are known in a region: all but those of the coarse mesh alone."""
+    unit, tried = found.model.basin.units.frequency, rough[: found.tried]
+    refined = [complex(np.sqrt(pair.eigenvalue)) * unit for pair in found.pairs]
+    return sum(map(region.holds, [*rough[len(tried) :], *refined]))
 
 
 def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
@@ -183,7 +197,7 @@ def _resonances_of_the_water(model: OpenModel, region: Region) -> list[complex]:
 
 
 def _region(expected: list[float], request: ResonanceRequest) -> Region:
-    highest = request.below if request.below is not None else _ABOVE * expected[min(request.count, len(expected)) - 1]
+    highest = request.below if request.below is not None else ABOVE * expected[min(request.count, len(expected)) - 1]
     lowest, damping = _BELOW * min(expected[0], highest), request.largest_damping
     if damping > MOST_DAMPING_ANYWHERE:
         # Strongly damped resonances have a small Re ω for their |ω|.

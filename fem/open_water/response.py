@@ -20,6 +20,7 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.round_plates import deflections_of_order
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -101,13 +102,12 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     if request.hull_pressures:
         table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
     if len(omegas) > FEW:
+        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
+    if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
+        # Of several azimuthal orders each would have frequencies of its own.
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
-        table = replace(
-            table,
-            missed_peaks=_unresolved(request, found.solver, table),
-            curve=_table(request, model, curves.omegas, curves.responses, curves.errors),
-        )
+        table = replace(table, curve=_table(request, model, curves.omegas, curves.responses, curves.errors))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
@@ -161,30 +161,37 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     and omitted dry modes over the largest deflection (collective)."""
     model, powers = solution.model, solution.incidence.powers[solution.incident]
     away, tips = model.energies_missed(solution.scattered)
-    count, omega = len(solution.incident), float(np.sqrt(solution.squared.real))
+    count = len(solution.incident)
     return FrequencyErrors(
         liquid=0.5 * away / powers + boundary_error(model.pencil.liquid.tank, model.basin.tank) + model.cut,
         tips=0.5 * tips / powers,
-        truncation=np.full(
-            count, max((_truncation(motions, model, omega) for motions in solution.motions), default=0.0)
-        ),
+        truncation=np.full(count, _truncation(solution)),
         rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),
     )
 
 
-def _truncation(motions: np.ndarray, model: OpenModel, omega: float) -> float:
-    """Deflection in the omitted dry modes, relative to the largest motion."""
-    largest = np.abs(motions).max(initial=0.0)
-    if not largest:
-        return 0.0
-    worst, first = 0.0, 0
-    for index, body in enumerate(model.pencil.bodies):
-        own = np.abs(motions[first : first + body.size])
-        first += body.size
-        if model.basin.tank.bodies[index].is_elastic:
-            held = _tail_of_attachments(motions, model, index, omega)
-            worst = max(worst, _TAIL * body.size * float(own[-2:].max()) + held)
-    return worst / float(largest)
+def _truncation(solution: OpenResponse) -> float:
+    """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
+
+    About an axis, where waves of one order may hardly move a plate, relative to the elevation of the wave if that is
+    larger, and times the number of orders that move it, ka and one more, whose deflections add up.
+    """
+    model, worst = solution.model, 0.0
+    is_round = model.basin.tank.geometry.is_revolved
+    elevations = solution.incidence.elevations[solution.incident] * float(is_round)
+    for motions, elevation in zip(solution.motions, elevations, strict=True):
+        largest, first = max(float(np.abs(motions).max(initial=0.0)), float(elevation)), 0
+        for index, body in enumerate(model.pencil.bodies):
+            own = np.abs(motions[first : first + body.size])
+            first += body.size
+            if largest and body.size and model.basin.tank.bodies[index].is_elastic:
+                reach = model.basin.tank.bodies[index].waterplane[1] * float(is_round)
+                terms = 1.0 + solution.incidence.planes[0].wave.wavenumber * reach
+                tail = terms * _TAIL * body.size * float(own[-2:].max())
+                if index in model.basin.tank.beams:
+                    tail += _tail_of_attachments(motions, model, index, float(np.sqrt(solution.squared.real)))
+                worst = max(worst, tail / largest)
+    return worst
 
 
 def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:
@@ -233,6 +240,7 @@ def _table(
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, solutions, errors)),
+        round_plates=deflections_of_order(model, motions, request.positions) if is_round else (),
         fields_at=request.fields_at,
     )
 

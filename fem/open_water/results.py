@@ -68,17 +68,19 @@ class RadiationTable:
 
 @dataclass(frozen=True, kw_only=True)
 class PlateDeflection:
-    """The deflection of a beam.
+    """The deflection of a beam, or of a round plate along its diameter in the direction of the waves.
 
     Attributes:
         body: its index among the bodies.
         positions: (p,) abscissas, m.
         deflection: (n, w, p) upwards, per unit elevation of the incident wave.
-        bending_moment: (n, w, p) EI w″ per metre of elevation, N/m.
-        shear_force: (n, w, p) (EI w″)′ per metre of elevation, N/m².
+        bending_moment: (n, w, p) EI w″ per metre of elevation, N/m; of a plate D(w_xx + ν w_yy).
+        shear_force: (n, w, p) (EI w″)′ per metre of elevation, N/m²; of a plate D ∂Δw/∂x.
         deflection_error: (n, w) estimated error of the deflection anywhere, m/m.
         bending_moment_error: (n, w) the same of the bending moment, N/m.
         shear_force_error: (n, w) the same of the shear force, N/m².
+        largest_strain: (n, w) at the faces of a plate of known thickness, over all its points, per metre of elevation.
+        largest_stress: (n, w) likewise, Pa/m.
     """
 
     body: int
@@ -89,6 +91,23 @@ class PlateDeflection:
     deflection_error: Floats
     bending_moment_error: Floats
     shear_force_error: Floats
+    largest_strain: Floats | None = None
+    largest_stress: Floats | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoundDeflection:
+    """The deflection w = Σ Wₙ(r) cos nθ of a round plate, order by order.
+
+    Attributes:
+        body: its index among the bodies.
+        radii: (p,) from the axis or the inner edge to the outer one, m.
+        derivatives: (4, n, w, orders, p) Wₙ and its derivatives per unit elevation of the incident wave, m^{-d}.
+    """
+
+    body: int
+    radii: Floats
+    derivatives: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,7 +167,8 @@ class ResponseTable:
         drift_error: (n, w) its estimated error, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
-        plates: one for each beam.
+        plates: one for each beam and each round plate.
+        round_plates: one for each round plate.
         hulls: one for each float, if pressures were requested.
         near_field_drift: (n, w) the drift force by the field beside the bodies, N/m³; in one liquid, if pressures were
             requested.
@@ -173,6 +193,7 @@ class ResponseTable:
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
+    round_plates: tuple[RoundDeflection, ...] = ()
     hulls: tuple[HullPressure, ...] = ()
     near_field_drift: Floats | None = None
     fields_at: tuple[float, ...] = ()

@@ -6,6 +6,8 @@ volume ρA_w in and out over a ring of the depth H, and its added mass grows lik
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
@@ -22,20 +24,26 @@ from hydroelastic.fem.tank.resolution import Resolution
 _SLOW = (1e-3, 3e-3)
 
 
-def zero_frequency_added_mass(problem: OpenWaterProblem) -> tuple[np.ndarray, float]:
+def zero_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]) -> tuple[np.ndarray, float]:
     """Return the added mass of the motions of one order at ω = 0, in SI units, and its relative error (collective).
 
-    Entries that grow without limit are infinite.
+    Over a bed heave, which displaces a volume, grows without limit; its entries are infinite. Bending modes displace
+    none: they are orthogonal to heave.
+
+    Args:
+        problem: the open water, of one order.
+        shapes: number of dry modes of each plate, 0 for floats.
     """
     basin = open_basin(problem.tank, 0.0)
-    if problem.tank.geometry.order == 0 and not is_infinitely_deep(problem.tank):
-        bodies = whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))
-        count = len(motion_scale(basin, bodies).dofs)
-        return np.full((count, count), np.inf), 0.0
+    dofs = motion_scale(basin, whole_bodies(basin.tank, shapes)).dofs
+    is_shallow = problem.tank.geometry.order == 0 and not is_infinitely_deep(problem.tank)
+    grows = np.array([is_shallow and dof.motion == "heave" for dof in dofs])
+    if grows.all():
+        return np.full((len(dofs), len(dofs)), np.inf), 0.0
     band = Band(lowest=_SLOW[0] * basin.units.frequency, highest=_SLOW[1] * basin.units.frequency)
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
-        model = open_model(problem, band, resolution)
+        model = open_model(problem, band, replace(resolution, shapes=shapes))
         loads = model.pencil.loads.astype(complex)
         with problem.watch.stage("solve"):
             solver = model.pencil.solver()
@@ -44,7 +52,8 @@ def zero_frequency_added_mass(problem: OpenWaterProblem) -> tuple[np.ndarray, fl
         matrix = model.pencil.products(loads, radiated)
         with problem.watch.stage("errors"):
             causes = model.errors(radiated, np.abs(np.diag(matrix)))
-        return Attempt(result=model.scale.masses(matrix).real, causes=causes, resolution=resolution)
+        masses = np.where(np.outer(grows, grows), np.inf, model.scale.masses(matrix).real)
+        return Attempt(result=masses, causes=causes, resolution=resolution)
 
     attempt = best_over_band(problem, band, solve)
     return attempt.result, attempt.error

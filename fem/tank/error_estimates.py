@@ -175,6 +175,7 @@ def boundary_error(mesh: TankMesh, tank: Tank) -> float:
     with the smallest extent s of the contour.
     """
     sizes = [hull.smallest_extent for hull in tank.hulls.values() if not hull.is_thin]
+    sizes += [min(1.0, tank.depth)] if tank.bed == "sphere" else []
     return 10.0 * (mesh.deviation / min(sizes)) ** 1.5 if sizes else 0.0
 
 

@@ -60,7 +60,7 @@ def make_mesh(
         return build_tank_mesh(geometry, grading)
     from hydroelastic.meshes.build import build_mesh
 
-    curved = any(not hull.is_thin for hull in tank.hulls.values())
+    curved = tank.bed == "sphere" or any(not hull.is_thin for hull in tank.hulls.values())
     return build_mesh(
         graded_outline(tank, resolution, half=half, infinite_frequency=infinite_frequency),
         bulk_size=resolution.bulk_size,

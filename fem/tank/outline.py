@@ -29,11 +29,13 @@ from hydroelastic.meshes.geometry import (
 )
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.physics.contours import Arc, root
+from hydroelastic.physics.contours import Arc, bowl_arc, root
 from hydroelastic.physics.dofs import body_name, body_number
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 
+# Largest element along the sphere of a bowl, in radii of its surface.
+_OF_BOWL = 0.5
 Directed = tuple[int, bool]
 
 
@@ -125,6 +127,10 @@ class _Builder:
         """The lower side of a layer from left to right."""
         if number > 0:
             return self._level(self.tank.levels[number - 1], marks, upper_side=True)
+        if self.tank.bed == "sphere":
+            arc = bowl_arc(self.tank.layers[0].depth, 1.0)
+            # Cells of the size of the radius follow it to the order of their degree.
+            return [(self._curve(BOTTOM, arc.start, arc.end, arc=arc, size=_OF_BOWL), True)]
         if self.tank.bed is not None:
             return [(self._curve(BOTTOM, *ends), True) for ends in pairwise(self.tank.bed)]
         y = self.tank.layers[0].floor

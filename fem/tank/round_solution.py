@@ -1,4 +1,5 @@
-"""Tanks of revolution as tanks in three dimensions: their modes in the records of these, sampled in plan view."""
+"""Tanks of revolution, and of one section over a width, as tanks in three dimensions: their modes in the records of
+these, sampled in plan view."""
 
 from __future__ import annotations
 
@@ -16,22 +17,29 @@ from hydroelastic.fem.surface_line import along_the_surface
 from hydroelastic.fem.tank.orders import solve_by_order
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.level_tank import Cylinder, LevelTank
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
 class OrderProblem:
-    """The problem of one azimuthal order; see `fem.level_bed.solution.PlanProblem`."""
+    """The problem of one order; see `fem.level_bed.solution.PlanProblem`.
+
+    Attributes:
+        solution: of the order.
+        order: azimuthal, or number of half waves across the section.
+        unit: unit of the plan's coordinates in that of the section.
+    """
 
     solution: TankSolution
     order: int
+    unit: float
     symmetry: str = ""
 
     @property
     def multiplicity(self) -> int:
         """Modes cos nθ and sin nθ have one frequency."""
-        return 2 if self.order else 1
+        return 2 if self.order and self.solution.tank.geometry.is_revolved else 1
 
     @property
     def pencil(self) -> CoupledPencil[Any]:
@@ -45,7 +53,10 @@ class OrderProblem:
 
     def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
         """Return a mode at places of the plan: water, and in its place the displacement of the floats (collective)."""
-        r, angle = np.hypot(x, y), np.arctan2(y, x)
+        geometry = self.solution.tank.geometry
+        r, angle = np.hypot(x, y) * self.unit, np.arctan2(y, x)
+        if not geometry.is_revolved:
+            r, angle = x * self.unit, np.pi * y * self.unit / geometry.width
         places, (potential,) = along_the_surface(self.pencil.liquid, [mode.potential])
         psi = np.interp(r, places, potential)
         elevation = mode.eigenvalue * psi
@@ -54,7 +65,8 @@ class OrderProblem:
             own = mode.body_amplitudes[first : first + body.size]
             first += body.size
             left, right = tank.bodies[index].waterplane
-            upwards = {"heave": np.ones_like(r), "pitch": r}
+            middle = tank.floats[index].hydrostatics.centre_of_mass[0]
+            upwards = {"heave": np.ones_like(r), "pitch": r, "roll": r - middle}
             raised = sum(
                 (
                     amplitude * upwards.get(dof.motion, np.zeros_like(r))
@@ -78,18 +90,19 @@ def round_solution(
     comm: MPI.Comm | None = None,
     report: Report = lambda _message: None,
 ) -> LevelSolution:
-    """Solve a tank of revolution (collective); arguments and errors are those of `solve_by_order`."""
+    """Solve a tank of revolution, or of one section over a width (collective); see `solve_by_order`."""
     found = solve_by_order(physical, tolerance=tolerance, modes=modes, comm=comm, report=report)
-    problems = [OrderProblem(solution=one, order=order) for order, one in enumerate(found.orders)]
-    layer = physical.layers[0]
+    layer, geometry = physical.layers[0], physical.geometry
+    width = geometry.width
     tank = LevelTank(
-        plan=Cylinder(radius=physical.length),
+        plan=Cylinder(radius=physical.length) if geometry.is_revolved else Box(length=physical.length, width=width),
         depth=layer.depth,
         density=layer.density,
         gravity=physical.gravity,
         top=physical.top,
     )
-    orders = found.orders
+    orders, unit = found.orders, tank.plan.unit / physical.length
+    problems = [OrderProblem(solution=one, order=order, unit=unit) for order, one in enumerate(orders)]
     seconds: dict[str, float] = {}
     for one in orders:
         for stage, value in one.seconds.items():
@@ -97,7 +110,7 @@ def round_solution(
     return LevelSolution(
         physical=tank,
         tank=tank.scaled(),
-        model="order by order in the half-plane of revolution",
+        model=f"order by order in the {'half-plane of revolution' if geometry.is_revolved else 'section'}",
         tolerance=tolerance,
         count=modes,
         modes=tuple(

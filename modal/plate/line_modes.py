@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from math import comb, perm
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -42,6 +43,8 @@ class PlateLine:
         transverse: n of a disc or ring, k_y of a strip.
         poisson_ratio: ν.
         edges: what holds both edges; the first one of a disc is not used.
+        rigidity: factor of the bending energy.
+        tension: T of a further energy ∫T|∇w|².
     """
 
     start: float
@@ -50,6 +53,8 @@ class PlateLine:
     transverse: float
     poisson_ratio: float
     edges: tuple[Edge, Edge]
+    rigidity: float = 1.0
+    tension: float = 0.0
 
     @property
     def is_disc(self) -> bool:
@@ -105,7 +110,7 @@ class PlateLine:
         """Number of rigid motions that the edges allow: heave and pitch of order 0, pitch of order 1 of a disc."""
         held = self.conditions
         if self.round and self.transverse == 1.0:
-            return int(not held)
+            return int(not held and not self.tension)
         if not self.transverse_is_zero:
             return 0
         if self.round:
@@ -130,14 +135,16 @@ def _zernike(order: int, count: int, s: FloatArray, derivative: int) -> FloatArr
         return result
 
     x = s[:, None]
-    value = x**order
-    slope = order * x ** max(order - 1, 0)
-    if derivative == 0:
-        return value * jacobi(0)
-    if derivative == 1:
-        return slope * jacobi(0) + value * 4.0 * x * jacobi(1)
-    curved = order * (order - 1) * x ** max(order - 2, 0)
-    return curved * jacobi(0) + 2.0 * slope * 4.0 * x * jacobi(1) + value * (4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2))
+    # Of P(2s² − 1) with respect to s.
+    inner: tuple[Callable[[], FloatArray], ...] = (
+        lambda: jacobi(0),
+        lambda: 4.0 * x * jacobi(1),
+        lambda: 4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2),
+        lambda: 48.0 * x * jacobi(2) + 64.0 * x**3 * jacobi(3),
+    )
+    powers = (comb(derivative, k) * perm(order, k) * x ** max(order - k, 0) for k in range(min(derivative, order) + 1))
+    parts = (power * inner[derivative - k]() for k, power in enumerate(powers))
+    return sum(parts, np.zeros((len(s), count)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,7 +240,7 @@ def _gauss(plate: PlateLine, polynomials: int) -> tuple[FloatArray, FloatArray]:
 def _bending(
     plate: PlateLine, points: FloatArray, weights: FloatArray, value: FloatArray, first: FloatArray, second: FloatArray
 ) -> FloatArray:
-    """The bending energy of each pair of shapes, over D and the factor of the order."""
+    """The energy of bending and tension of each pair of shapes, over the factor of the order."""
     square, rest = plate.transverse**2, 1.0 - plate.poisson_ratio
     # Curvatures along the line and across it, and twist: (Δw)² − 2(1 − ν)(w_xx w_yy − w_xy²).
     if plate.round:
@@ -243,9 +250,11 @@ def _bending(
     else:
         across, twist = -square * value, plate.transverse * first
     parts = (
-        (plate.poisson_ratio, second + across),
-        (rest, second),
-        (rest, across),
-        (2.0 * rest, twist),
+        (plate.rigidity * plate.poisson_ratio, second + across),
+        (plate.rigidity * rest, second),
+        (plate.rigidity * rest, across),
+        (plate.rigidity * 2.0 * rest, twist),
+        (plate.tension, first),
+        (plate.tension, plate.transverse * value / (points[:, None] if plate.round else 1.0)),
     )
     return sum((factor * (part.T * weights) @ part for factor, part in parts), np.zeros((value.shape[1],) * 2))

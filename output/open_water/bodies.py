@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import pi
 from typing import Any
 
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.sections import Section
 from hydroelastic.output.whole_units import of_whole_solids
+from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 # Part of the width of the waterplane.
@@ -21,11 +23,11 @@ class BodyAtRest:
 
     Attributes:
         number: of the body, from 1.
-        kind: "float" or "beam".
+        kind: "float", "beam" or "plate".
         mass: kg/m.
-        draught: depth of its lowest point below the still level, m; of a beam that of its mean weight, which is not
-            modelled.
-        waterplane: x of both ends of its waterplane, m.
+        draught: depth of its lowest point below the still level, m; of a beam or plate that of its mean weight, which
+            is not modelled.
+        waterplane: x of both ends of its waterplane, m; of a round plate both radii.
         centre_of_gravity: x, and y above its still level, m.
         centre_of_buoyancy: the same of the part below the level, m.
         radius_of_gyration: about the centre of gravity, m.
@@ -50,7 +52,10 @@ class BodyAtRest:
 def bodies_at_rest(tank: Tank) -> Iterator[BodyAtRest]:
     """Yield each body of open water at rest, in SI units."""
     for index, body in enumerate(tank.bodies):
-        yield _beam(tank, index) if body.is_elastic else _float(tank, index)
+        if isinstance(body, RoundPlate):
+            yield _round_plate(tank, index, body)
+        else:
+            yield _beam(tank, index) if body.is_elastic else _float(tank, index)
 
 
 def _beam(tank: Tank, index: int) -> BodyAtRest:
@@ -62,6 +67,20 @@ def _beam(tank: Tank, index: int) -> BodyAtRest:
         draught=beam.mass_per_length / jump,
         waterplane=beam.waterplane,
         heave_stiffness=jump * tank.gravity * beam.length if beam.hydrostatic else 0.0,
+    )
+
+
+def _round_plate(tank: Tank, index: int, plate: RoundPlate) -> BodyAtRest:
+    jump, (inner, outer) = tank.level_of(index).jump, plate.waterplane
+    area, weight = pi * (outer**2 - inner**2), jump * tank.gravity * float(plate.hydrostatic)
+    return BodyAtRest(
+        number=index + 1,
+        kind="plate",
+        mass=plate.mass_per_area * area,
+        draught=plate.mass_per_area / jump,
+        waterplane=plate.waterplane,
+        heave_stiffness=weight * area,
+        roll_stiffness=0.25 * weight * area * (inner**2 + outer**2),
     )
 
 
@@ -99,10 +118,10 @@ def _point(key: str, meaning: str) -> Quantity:
 # fmt: off
 BODIES = Group("bodies", "bodies at rest", (
     Quantity("number", "number of the body", "1", short="body"),
-    Quantity("kind", '`"float"` or `"beam"`', short="kind"),
+    Quantity("kind", '`"float"`, `"beam"` or `"plate"`', short="kind"),
     Quantity("mass", "mass", "kg/m", shown=".6g", short="mass"),
     Quantity("draught", "draught", "m", shown=".6g", short="draught",
-        note="of a beam that of its mean weight, which is not modelled"),
+        note="of a beam or plate that of its mean weight, which is not modelled"),
     Quantity("waterplane", "x of both ends of the waterplane", "m", dimensions=("end",), shown=".6g",
         short="waterplane x"),
     _point("centre_of_gravity", "x of the centre of gravity, and its height above the still level"),

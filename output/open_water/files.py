@@ -47,6 +47,14 @@ _DEFLECTION = Group(
 )
 
 
+STRAIN = Group(
+    "strain",
+    "strain and stress of a plate",
+    (RESPONSE["omega"], PLATES["largest_strain"], PLATES["largest_stress"]),
+)
+"""Columns of the table of strains."""
+
+
 _PRESSURE = Group(
     "pressure",
     "pressure along a hull",

@@ -42,6 +42,9 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
                 shape = Annulus((0.0, 0.0), outer, outer - inner) if inner else Circle((0.0, 0.0), outer)
                 shape.set(facecolor=BODY, edgecolor=BODY_EDGE, zorder=3)
                 axes.add_patch(shape)
+            for radii, _ in waves.plates:
+                for radius in filter(None, (radii[0], radii[-1])):
+                    axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=BODY_EDGE, zorder=3))
             axes.set_aspect("equal")
             axes.set_xlabel("x, m, along the waves")
             axes.set_ylabel("y, m")

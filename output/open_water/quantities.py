@@ -30,7 +30,8 @@ _PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase":
 
 @dataclass(frozen=True, kw_only=True)
 class Deflection:
-    """The deflection of a beam in waves: `number` of the body, from 1, and `PlateDeflection` with the waves."""
+    """The deflection of a beam or round plate in waves: `number` of the body, from 1, and `PlateDeflection` with the
+    waves."""
 
     number: int
     omega: Floats
@@ -42,6 +43,8 @@ class Deflection:
     deflection_error: Floats
     bending_moment_error: Floats
     shear_force_error: Floats
+    largest_strain: Floats | None
+    largest_stress: Floats | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +84,7 @@ class WavesAndMotions(ResponseTable):
 
     @property
     def deflections(self) -> Iterator[Deflection]:
-        """The deflection of each beam."""
+        """The deflection of each beam and round plate."""
         for plate in self.plates:
             yield Deflection(
                 number=plate.body + 1,
@@ -94,6 +97,8 @@ class WavesAndMotions(ResponseTable):
                 deflection_error=plate.deflection_error,
                 bending_moment_error=plate.bending_moment_error,
                 shear_force_error=plate.shear_force_error,
+                largest_strain=plate.largest_strain,
+                largest_stress=plate.largest_stress,
             )
 
     @property
@@ -220,7 +225,7 @@ _AMPLITUDES = "omega wave radiating_dof", "omega wave_direction wave radiating_d
 _RATIOS = "omega wave outgoing_wave", "omega wave_direction wave outgoing_wave"
 ALONG_BEAM = "position_on_body_{.number}"
 """The dimension of the places along a beam."""
-PLATES = Group("plates", "the deflection of each beam", (
+PLATES = Group("plates", "the deflection of each beam, and of each round plate along the diameter of the waves", (
     Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
     joined_array("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
     joined_array("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
@@ -236,6 +241,13 @@ PLATES = Group("plates", "the deflection of each beam", (
         "omega wave_direction wave", unit=unit, variable=f"{key}_error_of_body_{{.number}}", printed=False, column="")
         for key, words, unit in (("deflection", "deflection", "m/m"), ("bending_moment", "bending moment", "N/m"),
             ("shear_force", "shear force", "N/m^2"))),
+    joined_array("largest_strain", "largest principal strain at the faces of body {.number} per unit elevation",
+        "omega wave", "omega wave_direction wave", unit="1/m", short="largest strain",
+        variable="largest_strain_of_body_{.number}",
+        note="over the whole plate and all times; `null` of beams, and of plates without `thickness`"),
+    joined_array("largest_stress", "largest principal stress at the faces of body {.number} per unit elevation",
+        "omega wave", "omega wave_direction wave", unit="Pa/m", short="largest stress",
+        variable="largest_stress_of_body_{.number}", note="as `largest_strain`"),
 ), record=lambda table: list(table.deflections), dimension="plate")
 ALONG_HULL = "point_on_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (
@@ -361,6 +373,14 @@ THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the fiel
 ), dimension="thin_float_row", prefix="thin_float")
 
 
+ROUND_BODY_ROWS = Group("rows", "values by the theory and by the field solution", (
+    Quantity("quantity", "quantity"),
+    Quantity("theory", "by the theory"),
+    Quantity("field", "by the field solution"),
+    Quantity("difference", "relative difference of the theory from the field solution", "1"),
+), dimension="round_body_row", prefix="round_body")
+
+
 def _poles(key: str, meaning: str, unit: str) -> Quantity:
     name = f"endless_float_{key}_entry"
     return Quantity(key, meaning, unit, dimensions=(name, f"{name}_2"))
@@ -377,6 +397,9 @@ ESTIMATES = Group("estimates", "older theories beside the field solution", (
         _poles("resonances", "complex frequencies of heave and of the second pole, parts", "rad/s"),
         _poles("residues", "residues of both, parts", "1"),
     ), note="`null` for other floats"),
+    Group("round_body", "closed forms and older estimates of a lone body of revolution", (ROUND_BODY_ROWS,),
+        record=lambda solution: {"rows": solution.round_body},
+        note="long waves, Haskind's relation, MacCamy and Fuchs of upright cylinders, the rigid disc"),
 ), record=lambda solution: solution, prefix="")
 
 

@@ -14,10 +14,10 @@ from hydroelastic.fem.open_water.results import (
     UnresolvedPeak,
 )
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
-from hydroelastic.output.columns import Column, headings_of, rows_of
+from hydroelastic.output.columns import Column, columns_of, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.bodies import bodies_section
-from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.files import STRAIN, open_columns
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
@@ -78,6 +78,18 @@ def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Itera
                 f"{estimate['note']} Of curves the largest difference is shown, in parts of the largest value, or of "
                 "the displacement at first.",
             ),
+            compares=True,
+        )
+    rows = summary["estimates"]["round_body"]["rows"]
+    if rows:
+        yield Section(
+            title="Closed forms and older estimates beside the field solution",
+            headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
+            rows=[
+                (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
+                for row in rows
+            ],
+            lines=("Of surge the largest difference of all frequencies, in parts of the largest value.",),
             compares=True,
         )
     if infinite is not None:
@@ -178,6 +190,19 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
             *(_missed(peak) for peak in table.missed_peaks),
         ),
     )
+    yield from _strains(table, rows)
+
+
+def _strains(table: WavesAndMotions, shown: list[int]) -> Iterator[Section]:
+    """Largest strain and stress of plates of known thickness."""
+    for plate in table.deflections:
+        if plate.largest_strain is not None:
+            columns = list(columns_of(STRAIN, plate, ("omega", "wave"), {"wave": table.waves}))
+            yield Section(
+                title=f"Largest strain and stress at the faces of body {plate.number}, per unit elevation",
+                headings=headings_of(columns, ""),
+                rows=rows_of(STRAIN, columns, shown),
+            )
 
 
 def _missed(peak: UnresolvedPeak) -> str:

@@ -15,7 +15,7 @@ from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 if TYPE_CHECKING:
     from hydroelastic.fem.level_bed.solution import LevelSolution
@@ -36,7 +36,7 @@ class SolvedLevelTank:
         estimating: the time that they took, by stage.
     """
 
-    scene: LevelTankScene | RoundTankScene
+    scene: LevelTankScene | OrderedTankScene
     tank: LevelSolution
     floats: tuple[FloatAtRest, ...] = ()
     exact: tuple[ExactMode, ...] = ()

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias
+from difflib import get_close_matches
+from typing import Annotated, Any, TypeAlias, get_args
 
 from pydantic import Discriminator, Tag
 
-from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.bodies import Beam, Float, Shape
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.varying_beam import VaryingBeam
 
 AnyBeam: TypeAlias = Beam | VaryingBeam
@@ -17,6 +19,11 @@ AnyBeam: TypeAlias = Beam | VaryingBeam
 AnyFloat: TypeAlias = Float | RevolvedFloat
 """A rigid body: a section, or a solid of revolution."""
 
+AnyBody: TypeAlias = AnyBeam | AnyFloat | SeaPlate
+"""Any body of a section or about an axis."""
+
+_SHAPES = (*get_args(Shape), *SOLID_SHAPES)
+
 
 def kind_of_body(body: Any) -> str:
     """Return the kind of the model with which a body is read; that of the beam refuses what is not a table."""
@@ -25,10 +32,12 @@ def kind_of_body(body: Any) -> str:
 
 
 def kind_of_sea_body(body: Any) -> str:
-    """Return the same in the open sea, where the shape tells solids of revolution, "solid", from sections."""
+    """Return the same in the open sea, where the shape, or the one that it resembles, tells solids of revolution,
+    "solid", from sections."""
     kind = kind_of_body(body)
     shape = body.get("shape") if isinstance(body, dict) else getattr(body, "shape", None)
-    return "solid" if kind == "float" and shape in SOLID_SHAPES else kind
+    resembled = get_close_matches(str(shape), _SHAPES, n=1)
+    return "solid" if kind == "float" and resembled and resembled[0] in SOLID_SHAPES else kind
 
 
 Body: TypeAlias = Annotated[

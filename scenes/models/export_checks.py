@@ -32,8 +32,9 @@ def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
     )
     if not scene.is_open:
         yield problem_at(("export",), None, "a tank with walls has no waves", remedy="Leave it out")
-    elif scene.beams:
-        yield problem_at(("export",), None, "the files are those of rigid bodies, and a beam is elastic")
+    elif scene.beams or scene.plates:
+        elastic = "beam" if scene.beams else "plate"
+        yield problem_at(("export",), None, f"the files are those of rigid bodies, and a {elastic} is elastic")
     elif len(scene.layers) > 1:
         yield problem_at(("export",), None, "the files are those of bodies in one liquid, and there are two")
     elif len(omega) < 2:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
-from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
 from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -327,7 +327,7 @@ def _is_float(scene: TankParts, index: int) -> bool:
     return isinstance(scene.body[index], AnyFloat)
 
 
-def _box(scene: TankParts, index: int, body: AnyBeam | AnyFloat) -> _Box:
+def _box(scene: TankParts, index: int, body: AnyBody) -> _Box:
     if not isinstance(body, AnyFloat):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height

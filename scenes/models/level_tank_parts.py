@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
@@ -21,7 +20,6 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import plate as physics
 from hydroelastic.scenes.models.bodies import (
-    LARGEST,
     MOST_BODIES,
     MOST_VERTICES,
     AnyNumber,
@@ -34,6 +32,7 @@ from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.obstacles import GivenBaffle, GivenColumn
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import Accuracy
+from hydroelastic.scenes.models.thin_plates import ThinPlate, one_mass, one_rigidity, ring_has_a_hole
 from hydroelastic.scenes.models.title import Title
 from hydroelastic.scenes.models.volume_floats import VolumeFloat
 
@@ -135,17 +134,13 @@ class PlanLiquid(SceneModel):
     )
 
 
-class Plate(SparseModel):
+class Plate(ThinPlate):
     """A thin elastic or rigid plate without draught that floats on the liquid.
 
     Raises:
         SceneError: if keys do not belong to the outline, or rigidity or mass are given twice or not at all.
     """
 
-    shape_key: ClassVar[str] = "outline"
-    mass_key: ClassVar[str] = "mass_per_area"
-
-    kind: Literal["plate"] = Field(default="plate", description="kind of the body")
     outline: OutlineName = Field(description="shape of the plate at rest")
     position: PlanPoint | None = Field(
         default=None, description="[x, y] of its centre, m; by default the middle of the tank"
@@ -157,31 +152,11 @@ class Plate(SparseModel):
     length: PositiveNumber | None = Field(
         default=None, description="length of a strip along x, m; it reaches over the whole width"
     )
-    radius: PositiveNumber | None = Field(default=None, description="radius of a disc, outer radius of a ring, m")
-    inner_radius: PositiveNumber | None = Field(default=None, description="inner radius of a ring, m")
     points: tuple[PlanPoint, ...] | None = Field(
         default=None,
         min_length=3,
         max_length=MOST_VERTICES,
         description=f"3 to {MOST_VERTICES} corners [x, y] of a polygon, m",
-    )
-    flexural_rigidity: PositiveNumber | None = Field(default=None, description="D = E h³/(12(1 − ν²)), N·m")
-    youngs_modulus: PositiveNumber | None = Field(
-        default=None, description="Young's modulus E, N/m², with thickness instead of flexural_rigidity"
-    )
-    thickness: PositiveNumber | None = Field(default=None, description="h, m")
-    rigid: Annotated[bool, Strict()] = Field(default=False, description="whether the plate does not bend")
-    poisson_ratio: Annotated[float, Strict(), Field(ge=-0.99, le=0.5)] = Field(
-        default=0.3, description="Poisson's ratio ν"
-    )
-    mass_per_area: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] | None = Field(
-        default=None, description="mass per area, kg/m²"
-    )
-    density: PositiveNumber | None = Field(
-        default=None, description="density of the plate, kg/m³, with thickness instead of mass_per_area"
-    )
-    hydrostatic: Annotated[bool, Strict()] = Field(
-        default=True, description="whether the hydrostatic restoring ρ g w acts on the plate"
     )
     edge: physics.Edge = Field(
         default="free",
@@ -191,30 +166,10 @@ class Plate(SparseModel):
 
     @model_validator(mode="after")
     def _keys_fit(self) -> Plate:
-        problems = [*_keys_of_the_outline(self), *_one_rigidity(self), *_one_mass(self)]
+        problems = [*_keys_of_the_outline(self), *one_rigidity(self), *one_mass(self), *_thickness_has_effect(self)]
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
-
-    @property
-    def whole_rigidity(self) -> float:
-        """D, N·m; infinite of a rigid plate."""
-        if self.rigid:
-            return inf
-        if self.flexural_rigidity is not None:
-            return self.flexural_rigidity
-        assert self.youngs_modulus is not None
-        assert self.thickness is not None
-        return self.youngs_modulus * self.thickness**3 / (12.0 * (1.0 - self.poisson_ratio**2))
-
-    @property
-    def whole_mass(self) -> float:
-        """Mass per area, kg/m²."""
-        if self.mass_per_area is not None:
-            return self.mass_per_area
-        assert self.density is not None
-        assert self.thickness is not None
-        return self.density * self.thickness
 
 
 class Slats(SceneModel):
@@ -270,27 +225,11 @@ def _keys_of_the_outline(plate: Plate) -> Iterator[InitErrorDetails]:
                 f'it does not belong to outline = "{plate.outline}", which takes {" and ".join((*needed, *further))}',
                 remedy="Leave it out",
             )
-    if plate.outline == "ring" and plate.radius and plate.inner_radius and plate.inner_radius >= plate.radius:
-        yield problem_at(("inner_radius",), plate.inner_radius, "it is not less than radius", allowed="< radius")
+    yield from ring_has_a_hole(plate)
 
 
-def _one_rigidity(plate: Plate) -> Iterator[InitErrorDetails]:
-    given = [key for key in ("flexural_rigidity", "youngs_modulus") if getattr(plate, key) is not None]
-    ways = "flexural_rigidity, or youngs_modulus with thickness, or rigid = true"
-    if len(given) + plate.rigid != 1:
-        wrong = "the stiffness of the plate is missing" if not given else "the stiffness of the plate is given twice"
-        yield problem_at((given[-1] if given else "flexural_rigidity",), None, wrong, allowed=f"one of {ways}")
-    elif plate.youngs_modulus is not None and plate.thickness is None:
-        yield problem_at(("thickness",), None, "it is missing beside youngs_modulus", allowed="thickness, m")
-
-
-def _one_mass(plate: Plate) -> Iterator[InitErrorDetails]:
-    if (plate.mass_per_area is None) == (plate.density is None):
-        wrong = "the mass of the plate is missing" if plate.density is None else "the mass of the plate is given twice"
-        yield problem_at(("mass_per_area",), None, wrong, allowed="mass_per_area, or density with thickness")
-    elif plate.density is not None and plate.thickness is None:
-        yield problem_at(("thickness",), None, "it is missing beside density", allowed="thickness, m")
-    elif plate.thickness is not None and plate.density is None and plate.youngs_modulus is None:
+def _thickness_has_effect(plate: Plate) -> Iterator[InitErrorDetails]:
+    if plate.thickness is not None and plate.density is None and plate.youngs_modulus is None:
         yield problem_at(
             ("thickness",),
             plate.thickness,

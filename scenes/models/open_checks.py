@@ -12,6 +12,7 @@ from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
@@ -145,7 +146,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
 def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield sections, per metre of width, beside solids of revolution, and what only sections have."""
     for index, body in enumerate(scene.body if scene.is_revolved else ()):
-        if not isinstance(body, RevolvedFloat):
+        if not isinstance(body, RevolvedFloat | SeaPlate):
             what = ("kind", body.kind) if body.kind != "float" else ("shape", body.shape)
             yield problem_at(
                 ("body", index, what[0]),

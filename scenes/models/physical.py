@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from hydroelastic.physics import attachments as physics
 from hydroelastic.physics.beams import Beam
-from hydroelastic.physics.geometry import PLANE, Geometry
+from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank, tank
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.body_kinds import AnyFloat
@@ -30,7 +30,7 @@ def physical_tank(scene: TankParts) -> Tank:
         liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
-        geometry=Geometry(kind="revolved") if scene.is_revolved else PLANE,
+        geometry=scene.geometry,
     )
     return replace(
         found,
@@ -58,7 +58,7 @@ def _attachment(scene: TankParts, one: Attachment) -> physics.Attachment:
     )
 
 
-def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
+def _body(scene: TankParts, index: int) -> Beam | RigidFloat | RoundPlate:
     body = scene.body[index]
     if isinstance(body, AnyFloat):
         # Contours need SciPy's root finders, whose import is slow.

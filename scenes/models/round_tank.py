@@ -1,10 +1,11 @@
-"""The scene of a tank of revolution with floats of draught or a shaped bed: its model with all checks. SI units."""
+"""Tanks that are solved order by order: the scene of one of revolution with floats of draught or a shaped bed, with
+all checks. SI units."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
@@ -17,20 +18,14 @@ from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, 
 from hydroelastic.scenes.models.title import Title
 
 
-class RoundTankScene(TankParts):
-    """A tank of revolution whose modes are solved for order by order, with floats on its axis or none.
-
-    Raises:
-        SceneError: if a value is not allowed or the parts do not fit together.
-    """
+class OrderedTankScene(TankParts):
+    """A tank whose modes are solved for order by order, with floats or none."""
 
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
-    tank: RoundTank = Field(description="the tank")
+    tank: Any
     liquid: Liquids
-    body: tuple[RevolvedFloat, ...] = Field(
-        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats on the axis, in any order"
-    )
+    body: Any = ()
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
 
     @property
@@ -48,17 +43,12 @@ class RoundTankScene(TankParts):
         """None: the meshes are those of the half-plane."""
 
     @property
-    def bed(self) -> tuple[tuple[float, float], ...] | None:
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
         """See `TankParts.bed`."""
         return self.tank.outline
 
-    @property
-    def is_revolved(self) -> bool:
-        """See `TankParts.is_revolved`."""
-        return True
-
     @model_validator(mode="after")
-    def _parts_fit(self) -> RoundTankScene:
+    def _parts_fit(self) -> OrderedTankScene:
         problems = list(_bed_fits(self))
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
@@ -66,23 +56,50 @@ class RoundTankScene(TankParts):
         return self
 
 
-def _bed_fits(scene: RoundTankScene) -> Iterator[InitErrorDetails]:
+class RoundTankScene(OrderedTankScene):
+    """A tank of revolution, with floats on its axis or none.
+
+    Raises:
+        SceneError: if a value is not allowed or the parts do not fit together.
+    """
+
+    tank: RoundTank = Field(description="the tank")
+    body: tuple[RevolvedFloat, ...] = Field(
+        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats on the axis, in any order"
+    )
+
+    @property
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
+        """See `TankParts.bed`."""
+        return "sphere" if self.tank.shape == "sphere" else self.tank.outline
+
+    @property
+    def is_revolved(self) -> bool:
+        """See `TankParts.is_revolved`."""
+        return True
+
+
+def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
     outline = scene.tank.outline
     if outline is None:
         return
-    depth, radius = scene.liquid[0].depth, scene.tank.radius
+    if scene.bed == "sphere":
+        yield problem_at(("tank", "outline"), None, 'shape = "sphere" has no other bed', remedy="Leave one of them out")
+        return
+    depth, length = scene.liquid[0].depth, scene.tank.length
     rises = all(start[0] < end[0] for start, end in pairwise(outline))
-    if outline[0][0] != 0.0 or outline[-1][0] != radius or not rises:
+    if outline[0][0] != 0.0 or outline[-1][0] != length or not rises:
+        x, start = ("r, z", "the axis") if scene.is_revolved else ("x, y", "the left")
         yield problem_at(
             ("tank", "outline"),
             None,
-            "it does not lead from the axis to the wall",
-            allowed=f"corners [r, z] with ascending r, from r = 0 to r = {radius:g} m",
+            f"it does not lead from {start} to the {'wall' if scene.is_revolved else 'right'}",
+            allowed=f"corners [{x}] with ascending {x[0]}, from {x[0]} = 0 to {x[0]} = {length:g} m",
         )
     elif max(z for _, z in outline) > 0.0 or abs(min(z for _, z in outline) + depth) > 1e-9 * depth:
         yield problem_at(
             ("tank", "outline"),
             None,
             f"its lowest corner does not lie {depth:g} m under the surface, the depth of the liquid, or one above it",
-            allowed=f"corners with z from {-depth:g} m, once at least, to 0",
+            allowed=f"corners with {'z' if scene.is_revolved else 'y'} from {-depth:g} m, once at least, to 0",
         )

@@ -18,13 +18,19 @@ from hydroelastic.scenes.models.bodies import (
     SceneModel,
     Shape,
 )
-from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
+from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
+from hydroelastic.scenes.models.round_plate_checks import (
+    analyses_take_round_plates,
+    round_plates_are_in_range,
+    round_plates_keep_apart,
+)
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts
@@ -86,7 +92,8 @@ SeaBody = Annotated[
     Annotated[SeaBeam, Tag("beam")]
     | Annotated[SeaVaryingBeam, Tag("varying_beam")]
     | Annotated[SeaFloat, Tag("float")]
-    | Annotated[RevolvedFloat, Tag("solid")],
+    | Annotated[RevolvedFloat, Tag("solid")]
+    | Annotated[SeaPlate, Tag("plate")],
     Discriminator(kind_of_sea_body),
 ]
 
@@ -139,12 +146,21 @@ class SeaScene(TankParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> SeaScene:
-        require_fit(self, (*STAGES, (attachments_hold_bodies, drag_is_heeded, export_is_possible)))
+        require_fit(
+            self,
+            (
+                *STAGES,
+                (analyses_take_round_plates, round_plates_keep_apart, round_plates_are_in_range),
+                (attachments_hold_bodies, drag_is_heeded, export_is_possible),
+            ),
+        )
         return self
 
 
-def _span(body: SeaBeam | SeaVaryingBeam | AnyFloat, scene: SeaScene) -> tuple[float, float]:
+def _span(body: AnyBody, scene: SeaScene) -> tuple[float, float]:
     """Smallest and largest x of a body, m."""
+    if isinstance(body, SeaPlate):
+        return -body.radius, body.radius
     if not isinstance(body, AnyFloat):
         return body.start, body.end
     # Contours need SciPy, whose import is slow.

@@ -10,6 +10,7 @@ from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -68,15 +69,19 @@ def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[
         body = scene.body[number - 1]
         if isinstance(body, AnyFloat):
             continue
+        what = "plate" if isinstance(body, SeaPlate) else "beam"
         if one.at is None:
             yield problem_at(
-                ("attachment", index, "at"), None, "it is missing, and a beam needs it", allowed="[x, y], m"
+                ("attachment", index, "at"),
+                None,
+                f"it is missing, and a {what} needs it",
+                allowed="[x, y], m",
             )
         elif not body.start <= one.at[0] <= body.end:
             yield problem_at(
                 ("attachment", index, "at"),
                 None,
-                f"x = {one.at[0]:g} m does not lie on the beam, [[body]] number {number}",
+                f"x = {one.at[0]:g} m does not lie on the {what}, [[body]] number {number}",
                 allowed=f"x from {body.start:g} to {body.end:g} m",
             )
         if any(matrix[1][1] for matrix in (one.stiffness, one.damping)) or one.quadratic_damping[1]:

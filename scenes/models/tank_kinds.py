@@ -1,9 +1,10 @@
-"""Which tanks are of three dimensions, and which of revolution: told by the keys of a document before it is read."""
+"""Which tanks are of three dimensions, of revolution, or of one section over a width, by the keys of a document."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args
 
+from hydroelastic.scenes.models.bodies import Shape
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES
 
 PLAN_KEYS = ("width", "radius", "inner_radius", "plan", "shape")
@@ -21,8 +22,9 @@ def is_level_tank(document: dict[str, Any]) -> bool:
 def is_round_tank(document: dict[str, Any]) -> bool:
     """Return whether a document of the kind "tank" is of revolution.
 
-    It has a radius, and floats on the axis or an outline of its bed, no columns and no baffles. Other bodies, floats
-    with a position of their own, and beds that are not of revolution are those of a tank in three dimensions.
+    It has a radius, and floats on the axis, an outline of its bed or the shape of a sphere, no columns and no baffles.
+    Other bodies, floats with a position of their own, and beds that are not of revolution are those of a tank in three
+    dimensions.
     """
     tank, bodies = document.get("tank"), document.get("body", [])
     if not isinstance(tank, dict) or "radius" not in tank or not isinstance(bodies, list):
@@ -36,4 +38,22 @@ def is_round_tank(document: dict[str, Any]) -> bool:
         and "position" not in one
         for one in bodies
     ]
-    return all(on_axis) and (bool(on_axis) or "outline" in tank)
+    return all(on_axis) and (bool(on_axis) or "outline" in tank or tank.get("shape") == "sphere")
+
+
+def is_canal(document: dict[str, Any]) -> bool:
+    """Return whether a document of the kind "tank" is of one section over a finite width.
+
+    It has a length and a width, and floats with the shape of a section or an outline of its bed.
+    """
+    tank, bodies = document.get("tank"), document.get("body", [])
+    if not isinstance(tank, dict) or not {"length", "width"} <= tank.keys() or not isinstance(bodies, list):
+        return False
+    of_sections = [
+        isinstance(one, dict) and one.get("kind") == "float" and one.get("shape") in get_args(Shape) for one in bodies
+    ]
+    return (
+        all(of_sections)
+        and (bool(of_sections) or "outline" in tank)
+        and not ({"bed", "model"} & tank.keys() or {"column", "baffle"} & document.keys())
+    )

@@ -16,6 +16,7 @@ from pydantic import (
 )
 
 from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
@@ -26,12 +27,13 @@ from hydroelastic.scenes.models.bodies import (
     PositiveNumber,
     SceneModel,
 )
-from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyBody, AnyFloat
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
+from hydroelastic.scenes.models.round_plates import SeaPlate
 
 
 class Tank(SceneModel):
@@ -110,6 +112,11 @@ class RoundTank(SceneModel):
     top: Literal["free", "rigid", "pressure_release"] = Field(
         default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
     )
+    shape: Literal["upright", "sphere"] = Field(
+        default="upright",
+        description="upright wall; or the part of a sphere below the still surface, whose radius is √(2Rh − h²) at a "
+        "depth h in a sphere of radius R",
+    )
     outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
         default=None,
         min_length=2,
@@ -149,7 +156,7 @@ class TankParts(SceneModel):
             """Title of tables and images."""
 
         @property
-        def tank(self) -> Tank | RoundTank:
+        def tank(self) -> Any:
             """The tank, or the stretch of the sea that is drawn."""
 
         @property
@@ -157,7 +164,7 @@ class TankParts(SceneModel):
             """The liquids, from the bottom up."""
 
         @property
-        def body(self) -> tuple[AnyBeam | AnyFloat, ...]:
+        def body(self) -> tuple[AnyBody, ...]:
             """The bodies."""
 
         @property
@@ -233,14 +240,19 @@ class TankParts(SceneModel):
         return self.tank.ends == "open"
 
     @property
-    def bed(self) -> tuple[tuple[float, float], ...] | None:
-        """Corners of the bed from the left to the right wall, m; None where it is level."""
+    def bed(self) -> tuple[tuple[float, float], ...] | Literal["sphere"] | None:
+        """Corners of the bed from the left to the right wall, m, or "sphere"; None where it is level."""
         return None
 
     @property
     def is_revolved(self) -> bool:
-        """Whether it is a sea of revolution: its bodies are solids on one vertical axis, not sections."""
-        return any(isinstance(body, RevolvedFloat) for body in self.body)
+        """Whether it is a sea of revolution: its bodies are solids and plates on one vertical axis, not sections."""
+        return any(isinstance(body, RevolvedFloat | SeaPlate) for body in self.body)
+
+    @property
+    def geometry(self) -> Geometry:
+        """What its section stands for."""
+        return Geometry(kind="revolved") if self.is_revolved else PLANE
 
     @property
     def analyses(self) -> tuple[Analysis, ...]:
@@ -250,14 +262,19 @@ class TankParts(SceneModel):
     @property
     def beams(self) -> tuple[tuple[int, AnyBeam], ...]:
         """The beams, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, AnyFloat))
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyBeam))
+
+    @property
+    def plates(self) -> tuple[tuple[int, SeaPlate], ...]:
+        """The round plates, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, SeaPlate))
 
     @property
     def floats(self) -> tuple[tuple[int, AnyFloat], ...]:
         """The floats, each with its index among the bodies."""
         return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyFloat))
 
-    def level_of(self, body: AnyBeam | AnyFloat) -> Level:
+    def level_of(self, body: AnyBody) -> Level:
         """Return the level at which a body floats; with one modelled liquid it is the surface."""
         if len(self.layers) == 1:
             return "surface"

@@ -64,6 +64,8 @@ def decay_cost_words(scene: TankParts, analysis: Decay) -> str:
 def _request(scene: TankParts, analysis: Analysis) -> str:
     if isinstance(analysis, Radiation):
         shapes = f"; of beams in heave, pitch and {analysis.elastic_modes} elastic shapes" if scene.beams else ""
+        if scene.plates:
+            shapes = f"; of plates in heave, pitch and the {analysis.elastic_modes} lowest elastic shapes of all orders"
         return (
             f"radiation: added mass, radiation damping and excitation forces at {_span(analysis.omega, 'frequency')} "
             f"rad/s{shapes}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from hydroelastic.fem.open_water.round_comparison import round_comparisons
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
 from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float_comparisons
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
@@ -39,6 +40,11 @@ class OpenSolution(OpenWaterSolution):
     def endless_float(self) -> InfiniteDraughtFloat | None:
         """The float of infinite draught, if the float is one of it with an end."""
         return infinite_draught_comparison(self.scene)
+
+    @cached_property
+    def round_body(self) -> tuple[Comparison, ...]:
+        """Closed forms and estimates of a lone body of revolution beside the solution."""
+        return round_comparisons(self.tank, self)
 
     @property
     def left_out(self) -> tuple[str, ...]:

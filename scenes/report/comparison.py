@@ -12,7 +12,7 @@ from hydroelastic.output.sections import Section
 from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -31,7 +31,7 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
     """
     if isinstance(scene, TankScene):
         return _tank(scene, outcome)
-    if isinstance(scene, LevelTankScene | RoundTankScene):
+    if isinstance(scene, LevelTankScene | OrderedTankScene):
         found = tuple(section for section in outcome.sections if section.compares)
         return found or NOTHING_TO_COMPARE
     if isinstance(scene, StringScene):

@@ -7,24 +7,37 @@ from collections.abc import Iterator
 from hydroelastic.output.open_water.bodies import bodies_at_rest_section
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 
-def check_round_tank(scene: RoundTankScene) -> Iterator[Section]:
+def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
     """Yield what is asked, the tank, and the floats at rest.
 
     Args:
         scene: a validated scene; nothing is solved.
     """
     asked = scene.accuracy
-    bed = "level bed" if scene.tank.outline is None else f"bed of {len(scene.tank.outline) - 1} cones"
+    outline = scene.bed
+    if outline is None:
+        bed = "level bed"
+    elif outline == "sphere":
+        depth, radius = scene.liquid[0].depth, scene.tank.length
+        bed = f"bed that is part of a sphere of radius {0.5 * (radius**2 + depth**2) / depth:g} m"
+    else:
+        bed = f"bed of {len(outline) - 1} {'cones' if scene.is_revolved else 'planes'}"
+    if scene.is_revolved:
+        what = (
+            f"A tank of revolution of radius {scene.tank.length:g} m with a {bed}, order by order in the half-plane "
+            "(r, z): ψ cos nθ, heave in order 0, surge and pitch in order 1."
+        )
+    else:
+        what = (
+            f"A section of {scene.tank.length:g} m with a {bed} over a width B = {scene.tank.width:g} m, order by "
+            "order: ψ cos(nπs/B) across it; floats move in order 0."
+        )
     yield Section(
         title="What is asked",
-        lines=(
-            f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",
-            f"A tank of revolution of radius {scene.tank.radius:g} m with a {bed}, order by order in the half-plane "
-            "(r, z): ψ cos nθ, heave in order 0, surge and pitch in order 1.",
-        ),
+        lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.", what),
     )
     if scene.body:
         yield bodies_at_rest_section(physical_tank(scene))

@@ -10,7 +10,7 @@ from hydroelastic.output.level_tank.tables import level_tank_cost, level_tank_se
 from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.level_tank.run import run_level_tank
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 from hydroelastic.scenes.round_tank.solve import solve_round_scene
 from hydroelastic.scenes.staged_run import StagedRun
 
@@ -31,7 +31,7 @@ def _write(tank: SampledTank, folder: Path) -> None:
     write_surface(tank.sample, folder / "fields" / "surface.vtu")
 
 
-run_round_tank: StagedRun[RoundTankScene, SolvedLevelTank] = StagedRun(
+run_round_tank: StagedRun[OrderedTankScene, SolvedLevelTank] = StagedRun(
     solve=solve_round_scene,
     kind=LEVEL_TANK,
     sections=lambda _solved, summary: level_tank_sections(summary),

@@ -8,10 +8,10 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 
-def solve_round_scene(scene: RoundTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
+def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
     """Solve a tank of revolution (collective).
 
     Raises:

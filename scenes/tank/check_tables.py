@@ -11,10 +11,12 @@ from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.beam_words import BeamWords
 from hydroelastic.scenes.tank.body_words import BodyWords
 from hydroelastic.scenes.tank.float_words import FloatWords
+from hydroelastic.scenes.tank.plate_words import PlateWords
 from hydroelastic.scenes.tank.symbols import Group, potential_of
 
 SURFACE_NAMES = {
@@ -173,4 +175,6 @@ def _words_of(scene: TankParts, index: int) -> BodyWords:
     body = scene.body[index]
     if isinstance(body, AnyFloat):
         return FloatWords(scene=scene, index=index, body=body)
+    if isinstance(body, SeaPlate):
+        return PlateWords(scene=scene, index=index, plate=body)
     return BeamWords(scene=scene, index=index, beam=body)

@@ -1,0 +1,143 @@
+"""A round plate as a body of the field model: its dry modes of one azimuthal order as displacements of its lower side.
+
+Shapes W(r) cos nθ are scaled to W(a) = 1, but the pitch r of order 1, whose amplitude is an angle. With the factor c of
+the geometry, their generalized mass and stiffness are c m∫W² r dr and c (D∫… + T∫… + Δρ g∫W² r dr).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from math import ceil, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.bodies.model import BodyModel
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.modal.plate.line_modes import FEW_MODES, PlateLine, dry_modes
+from hydroelastic.physics.dofs import Dof, body_name
+from hydroelastic.physics.round_plates import RoundPlate
+from hydroelastic.physics.symmetry import Parity
+
+# Error of the deflection by the first N dry modes, _ERROR (_MODES/N)⁵, measured at the edge of discs.
+_ERROR, _MODES = 6e-5, 4.0
+# Lowest order in which a plate has no rigid motion.
+_BENT = 2
+
+
+class RoundPlateModel(BodyModel):
+    """A round plate in its first dry modes of the order of its tank."""
+
+    @property
+    def plate(self) -> RoundPlate:
+        """The plate."""
+        return plate_of(self.tank.bodies[self.index])
+
+    def moving(self, count: int, parity: Parity | None) -> Body:
+        """See `BodyModel.moving`; a rigid plate has its rigid motions alone."""
+        plate, order, measure = self.plate, self.tank.geometry.order, self.tank.geometry.measure
+        shapes = RoundShapes(plate.of_order(order), count)
+        squares, bending = measure * shapes.squares, measure * shapes.bending
+        # Not asked for: half-planes have no halves.
+        symmetric: Parity = "symmetric"
+        restoring = float(plate.hydrostatic) * self.tank.level_of(self.index).jump * squares
+        return Body(
+            surface=body_name(self.index + 1),
+            shapes=partial(_upwards, shapes),
+            wavenumber=pi * shapes.count / (plate.radius - plate.inner_radius),
+            dofs=shapes.dofs,
+            parities=(symmetric,) * shapes.count,
+            motions=np.eye(shapes.count),
+            stiffness=bending + restoring,
+            bending_stiffness=bending,
+            mass=np.diag(plate.mass_per_area * squares),
+        )
+
+    def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
+        """Return the number of dry modes up to the shortest wave, and of a tail whose error falls like N⁻⁵."""
+        if not self.plate.bends:
+            return 0
+        half_waves = wavenumber * (self.plate.radius - self.plate.inner_radius) / pi
+        # The errors of all orders add up, and about so many of them bend the plate.
+        orders = 1.0 + wavenumber * self.plate.radius
+        return ceil(half_waves + _MODES * (_ERROR * orders / tolerance) ** 0.2) + 2
+
+    def elastic_shapes(self, count: int) -> int:
+        """See `BodyModel.elastic_shapes`."""
+        counts = lowest_elastic(self.plate, count)
+        return dict(enumerate(counts)).get(self.tank.geometry.order, 0)
+
+
+def lowest_elastic(plate: RoundPlate, count: int) -> tuple[int, ...]:
+    """Return how many of the lowest elastic dry modes are of each order 0, 1 …; none of a rigid plate."""
+    found: list[tuple[float, int]] = []
+    # From the second order on the lowest mode rises with the order.
+    for order in range(count + _BENT if plate.bends else 0):
+        shapes = RoundShapes(plate.of_order(order), len(plate.of_order(order).rigid_motions) + count)
+        own = [(float(one / other), order) for one, other in zip(shapes.bending, shapes.squares, strict=True) if one]
+        if len(found) == count and order >= _BENT and min(own)[0] > found[-1][0]:
+            break
+        found = sorted([*found, *own])[:count]
+    orders = [order for _, order in found]
+    return tuple(orders.count(order) for order in range(max(orders, default=-1) + 1))
+
+
+class RoundShapes:
+    """The first dry modes of a round plate of one order.
+
+    Args:
+        plate: the plate, with its order.
+        count: number of shapes, rigid ones included; of a rigid plate these alone.
+
+    Attributes:
+        squares: ∫W² r dr, shape (shapes,).
+        bending: the energy of bending and tension likewise, shape (shapes,).
+    """
+
+    def __init__(self, plate: RoundPlate, count: int) -> None:
+        """Find the shapes."""
+        assert plate.order is not None
+        self._plate, rigid = plate, plate.rigid_motions
+        self.count = count if plate.bends else min(count or len(rigid), len(rigid))
+        line = PlateLine(
+            start=plate.inner_radius,
+            end=plate.radius,
+            round=True,
+            transverse=float(plate.order),
+            poisson_ratio=plate.poisson_ratio,
+            edges=("free", "free"),
+            rigidity=plate.flexural_rigidity if plate.bends else 1.0,
+            tension=plate.tension if plate.bends else 0.0,
+        )
+        # More polynomials than shapes: all of these are dry modes, of whatever number there are.
+        self._modes = dry_modes(line, self.count + FEW_MODES)
+        edge = self._modes.values(np.array([plate.radius]))[0, : self.count]
+        self._factors = np.where([dof.is_rotation for dof in self.dofs], plate.radius, 1.0) / edge
+        self.squares: NDArray[np.float64] = self._modes.squares[: self.count] * self._factors**2
+        self.bending: NDArray[np.float64] = self._modes.bending[: self.count] * self._factors**2
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]:
+        """Rigid motions, then elastic shapes by their number of nodal diameters."""
+        rigid = self._plate.rigid_motions
+        elastic = (Dof.elastic(number + 1, self._plate.order) for number in range(self.count - len(rigid)))
+        return (*rigid, *elastic)[: self.count]
+
+    def values(self, radii: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
+        """Return W, or a derivative, at radii of the plate, shape (shapes, points)."""
+        inside = np.clip(radii, self._plate.inner_radius, self._plate.radius)
+        values: NDArray[np.float64] = (self._modes.values(inside, derivative)[:, : self.count] * self._factors).T
+        return values
+
+
+def plate_of(body: object) -> RoundPlate:
+    """Return a body that is a round plate."""
+    assert isinstance(body, RoundPlate)
+    return body
+
+
+def _upwards(
+    shapes: RoundShapes, points: NDArray[np.float64], normals: NDArray[np.float64], number: int
+) -> NDArray[np.float64]:
+    upwards: NDArray[np.float64] = shapes.values(points[0])[number] * normals[1]
+    return upwards

@@ -1,0 +1,62 @@
+"""Checks of the round plates of a sea: none overlaps another, and none is too soft, stiff, light or heavy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import inf
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.physics.tank import ROUND_OFF
+from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
+from hydroelastic.scenes.models.tank_parts import TankParts
+
+_OF_OTHERS = ("spectrum", "impulse_response", "motion")
+
+
+def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield plates at one level that overlap or touch."""
+    for level in ("interface", "surface"):
+        plates = [(index, plate) for index, plate in scene.plates if scene.level_of(plate) == level]
+        for (first, inner), (second, outer) in pairwise(sorted(plates, key=lambda numbered: numbered[1].start)):
+            if outer.start - inner.end <= ROUND_OFF * scene.tank.length:
+                yield problem_at(
+                    ("body", second, "inner_radius"),
+                    outer.start,
+                    f"the plate overlaps or touches [[body]] number {first + 1}, whose radius is {inner.end:g} m",
+                    remedy="Leave a gap between them",
+                )
+
+
+def analyses_take_round_plates(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield analyses that are not solved for elastic plates of revolution."""
+    for index, analysis in enumerate(scene.analysis if scene.plates else ()):
+        if analysis.kind in _OF_OTHERS:
+            yield problem_at(
+                ("analysis", index, "kind"),
+                analysis.kind,
+                "it is computed for sections and rigid solids only, and a body is a round plate",
+                remedy="Leave it out",
+            )
+
+
+def round_plates_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield plates whose stiffness or mass is lost in rounding beside that of the liquid."""
+    for index, plate in scene.plates:
+        below, above = scene.densities_at(scene.level_of(plate))
+        weight = (below - above) * scene.tank.gravity
+        stiffness = plate.whole_rigidity + (plate.tension or 0.0) * plate.radius**2
+        groups = (
+            ("flexural_rigidity", "(D + T a²)/(Δρ g a⁴)", stiffness, weight * plate.radius**4, STIFFNESS_GROUP),
+            ("mass_per_area", "m/(ρ a)", plate.whole_mass, below * plate.radius, MASS_GROUP),
+        )
+        for key, formula, value, scale, (least, most) in groups:
+            if value not in (0.0, inf) and not least <= value / scale <= most:
+                yield problem_at(
+                    ("body", index, key),
+                    value,
+                    f"{formula} = {value / scale:g} is beyond the resolution of double precision",
+                    allowed=f"{least * scale:.3g} to {most * scale:.3g} for this plate and liquid",
+                )

@@ -1,0 +1,198 @@
+"""Circular and ring-shaped plates in the sea against references by other methods, closed forms and identities."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from open_cases import complex_of, stored
+
+from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
+from hydroelastic.fem.open_water.results import RoundDeflection
+from hydroelastic.fem.open_water.round_plates import along_diameter
+from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.modal.plate.line_modes import PlateLine, dry_modes
+from hydroelastic.physics.geometry import Geometry
+from hydroelastic.physics.round_plates import RoundPlate
+from hydroelastic.physics.tank import tank
+from hydroelastic.scenes.models.sea import SeaScene
+from hydroelastic.scenes.open_water.physics import open_water_problem
+
+CASES = {case["name"]: case for case in stored("axisymmetric_sea.json")["cases"]}
+SLOW = pytest.mark.slow
+
+
+def solved(body: dict[str, Any], depth: float, tolerance: float, *requests: Any, **more: Any) -> OpenWaterSolution:
+    """Solve for one plate."""
+    scene = SeaScene.model_validate(
+        {
+            "liquid": [{"density": 1000.0, "depth": depth} | more],
+            "body": [{"kind": "plate", "outline": "disc"} | body],
+            "accuracy": {"tolerance": tolerance},
+        }
+    )
+    return solve_open_water(open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()), requests)
+
+
+REFERENCES = [
+    pytest.param("p6 soft disc, no mass T=2.5", 1e-4),
+    *(pytest.param(name, 1e-6, marks=SLOW) for name, case in CASES.items() if case["group"] == "plate"),
+    pytest.param("p1 ice floe 50 m, deep T=11.0", 1e-8, marks=SLOW),
+    pytest.param("p3 wave-tank disc 0.72 m, 10 mm T=0.8", 1e-8, marks=SLOW),
+]
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize(("name", "tolerance"), REFERENCES)
+def test_deflection_and_scattered_waves_agree_with_the_references(name: str, tolerance: float) -> None:
+    """A wrong term of bending, Poisson's ratio, phase of an order or factor of the restoring is an error of order 1."""
+    case = CASES[name]
+    given, values = case["inputs"], case["values"]
+    body = {
+        "radius": given["radius"],
+        "youngs_modulus": given["E"],
+        "thickness": given["thickness"],
+        "poisson_ratio": given["poisson"],
+        "mass_per_area": given["density_plate"] * given["thickness"],
+    }
+    request = ResponseRequest(omega=(values["omega"],))
+    solution = solved(body, float(given["depth"]), tolerance, request, density=given["density"])
+    (table,), (plate,) = solution.response, solution.response[0].round_plates
+    assert solution.status == "ok"
+    assert table.partial_waves is not None
+    count = min(table.partial_waves.shape[-1], len(values["scattered"]))
+    scattered = np.array([complex_of(value) for value in values["scattered"]])
+    edge = np.array([complex_of(value) for value in values["edge_by_order"]])
+    along = table.plates[0].deflection[0, 0]
+    errors = [
+        np.abs(table.partial_waves[0, 0, 0, :count] - scattered[:count]).max(),
+        np.abs(plate.derivatives[0, 0, 0, :count, -1] - edge[:count]).max(),
+        abs(along[-1] - complex_of(values["edge_0"])),
+        abs(along[0] - complex_of(values["edge_180"])),
+        abs(along[len(along) // 2] - complex_of(values["centre"])),
+    ]
+    # Measured: the estimates are 1.3 to 15 times the largest of these errors.
+    assert table.relative_error[0] / 30.0 < max(errors) < table.relative_error[0] < tolerance
+    # What the orders that are left out bend and scatter is below the tolerance.
+    assert np.abs(scattered[count:]).max(initial=0.0) < tolerance > np.abs(edge[count:]).max(initial=0.0)
+    assert abs(table.energy_residual[0, 0]) < 10.0 * tolerance
+
+
+def test_a_rigid_disc_has_the_added_mass_of_the_closed_forms() -> None:
+    """Below a disc among ψ = 0 heave has 4/3 ρa³, pitch 8/45 ρa⁵; below one among a lid 8/3 and 4/15."""
+    body = {"radius": 2.0, "rigid": True, "mass_per_area": 10.0}
+    (table,) = solved(body, math.inf, 1e-4, RadiationRequest(omega=(math.inf, 0.0))).radiation
+    units = 1000.0 * np.array([2.0**3, 2.0**5])
+    for mass, known, error in zip(
+        table.added_mass, ([4 / 3, 8 / 45], [8 / 3, 4 / 15]), table.relative_error, strict=True
+    ):
+        np.testing.assert_allclose(np.diag(mass) / units, known, rtol=error)
+    np.testing.assert_allclose(np.diag(table.inertia), 10.0 * math.pi * np.array([4.0, 4.0]), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("order", "zero"), [(0, 3.83170597), (1, 1.84118378), (3, 4.20118894)])
+def test_a_dry_membrane_vibrates_at_the_zeros_of_bessel_functions(order: int, zero: float) -> None:
+    """T Δw = −ω²m w with ∂w/∂r = 0 at the edge: ω a √(m/T) = j′."""
+    line = PlateLine(
+        start=0.0,
+        end=1.0,
+        round=True,
+        transverse=order,
+        poisson_ratio=0.3,
+        edges=("free",) * 2,
+        rigidity=0.0,
+        tension=2.0,
+    )
+    modes = dry_modes(line, 14)
+    assert modes.rigid == (order == 0)
+    assert math.sqrt(modes.eigenvalues[modes.rigid] / 2.0) == pytest.approx(zero, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("orders", "moment", "shear", "curvature"),
+    [
+        # w = (1 + i) x²: W₀ = W₂ = (1 + i) r²/2; w_xx = 2 (1 + i).
+        ({0: [0.0, 0.0, 0.5 + 0.5j], 2: [0.0, 0.0, 0.5 + 0.5j]}, lambda x: 2.0 + 2.0j + 0.0 * x, 0.0, math.sqrt(8.0)),
+        # w = x³: W₁ = ¾ r³, W₃ = ¼ r³.
+        ({1: [0.0, 0.0, 0.0, 0.75], 3: [0.0, 0.0, 0.0, 0.25]}, lambda x: 6.0 * x, 6.0, 12.0),
+    ],
+)
+def test_moments_strain_and_stress_are_those_of_polynomials(
+    orders: dict[int, list[complex]], moment: Any, shear: float, curvature: float
+) -> None:
+    """On a disc of radius 2 with ν = 0: M = D w_xx, Q = D w_xxx, strain h/2 w_xx and stress 6M/h²."""
+    radii = np.linspace(0.0, 2.0, 9)
+    derivatives = np.zeros((4, 1, 1, 4, 9), dtype=complex)
+    for order, coefficients in orders.items():
+        polynomial = np.polynomial.Polynomial(coefficients)
+        for number in range(4):
+            derivatives[number, 0, 0, order] = (polynomial.deriv(number) if number else polynomial)(radii)
+    plate = RoundPlate(radius=2.0, flexural_rigidity=5.0, mass_per_area=1.0, poisson_ratio=0.0, thickness=0.1)
+    sea = tank(
+        length=9.0,
+        gravity=9.81,
+        is_open=True,
+        liquids=((1000.0, math.inf),),
+        top="free",
+        bodies=(plate,),
+        geometry=Geometry(kind="revolved"),
+    )
+    found = along_diameter(sea, RoundDeflection(body=0, radii=radii, derivatives=derivatives), np.array([1e-6]))
+    # Rounding of sums of a few numbers of order 10.
+    np.testing.assert_allclose(found.bending_moment[0, 0], 5.0 * moment(found.positions), atol=1e-12)
+    np.testing.assert_allclose(found.shear_force[0, 0], np.full(17, 5.0 * shear), atol=1e-12)
+    assert found.largest_strain is not None
+    assert found.largest_stress is not None
+    # The phase of the largest strain is found to 1e-5, at which it differs by its square.
+    assert found.largest_strain[0, 0] == pytest.approx(0.05 * curvature, rel=1e-8)
+    assert found.largest_stress[0, 0] == pytest.approx(6.0 * 5.0 * curvature / 0.1**2, rel=1e-8)
+
+
+@pytest.mark.slow
+def test_bending_modes_radiate_as_much_as_they_are_damped() -> None:
+    """The four lowest shapes of a disc are of the orders 2, 0, 3 and 1; energy and Haskind hold for each."""
+    body = {"radius": 1.0, "flexural_rigidity": 100.0, "mass_per_area": 10.0}
+    (table,) = solved(body, 2.0, 1e-6, RadiationRequest(omega=(3.0, math.inf))).radiation
+    assert table.dofs == ("heave", "pitch", "elastic 0-1", "elastic 1-1", "elastic 2-1", "elastic 3-1")
+    assert max(table.energy_residual[0], table.haskind_residual[0]) < 1e-8
+    # Orders do not couple, and the shapes of one do.
+    coupled = np.abs(table.added_mass[0]) > 0.0
+    np.testing.assert_array_equal(coupled[0], [True, False, True, False, False, False])
+    np.testing.assert_array_equal(coupled[1], [False, True, False, True, False, False])
+
+
+@pytest.mark.slow
+def test_a_thin_ring_of_large_radius_heaves_as_a_strip() -> None:
+    """Per metre of its circumference, with an error of order 1/R."""
+    section = SeaScene.model_validate(
+        {
+            "liquid": [{"density": 1000.0, "depth": 3.0}],
+            "body": [{"kind": "beam", "length": 2.0, "flexural_rigidity": 1e6, "mass_per_length": 50.0}],
+            "accuracy": {"tolerance": 1e-5},
+        }
+    )
+    request = RadiationRequest(omega=(math.inf,), elastic_modes=0)
+    (plane,) = solve_open_water(open_water_problem(section, MPI.COMM_WORLD, Stopwatch()), (request,)).radiation
+    differences = []
+    for radius in (10.0, 20.0):
+        body = {"outline": "ring", "radius": radius + 1.0, "inner_radius": radius - 1.0, "rigid": True}
+        (ring,) = solved(body | {"mass_per_area": 50.0}, 3.0, 1e-5, request).radiation
+        per_metre = ring.added_mass[0, 0, 0] / (2.0 * math.pi * radius)
+        differences.append(abs(per_metre / plane.added_mass[0, 0, 0] - 1.0))
+    assert differences[1] < 0.02
+    assert differences[1] < 0.6 * differences[0]
+
+
+@pytest.mark.slow
+def test_bending_resonances_are_found_and_counted() -> None:
+    """The lowest ones of a soft disc are of several orders; none is missing."""
+    body = {"radius": 1.0, "flexural_rigidity": 400.0, "mass_per_area": 10.0}
+    solution = solved(body, math.inf, 1e-4, ResonanceRequest(count=3, largest_damping=0.3))
+    (table,) = solution.resonance
+    assert solution.status == "ok"
+    assert any(label.is_elastic for label in table.labels)
+    assert np.all(table.omega.imag < 0.0)

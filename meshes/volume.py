@@ -18,6 +18,8 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.refinement import APART
+from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file, solid_of_file
@@ -39,6 +41,8 @@ _SAMPLES = 200
 # Smallest part of the bulk size that the curvature of a wall asks for.
 _LEAST_CURVED = 0.2
 _LEVEL = 1e-7
+# Cells around a curved wall that is refined later.
+_FEWEST_AROUND = 8
 # Points this close to a float, in units of the tank, are on it.
 _ON_FLOAT = 1e-7
 # By so much boxes around edges are larger than these.
@@ -54,12 +58,22 @@ class VolumeSizes:
         bulk: elsewhere.
         geometry: degree of the geometry of curved cells.
         around: least number of cells around a curved wall.
+        refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
+            sizes then; see `meshes.refinement`.
     """
 
     edge: float
     bulk: float
     geometry: int
     around: int = 16
+    refinements: int = 0
+
+    @property
+    def coarse(self) -> VolumeSizes:
+        """Those of gmsh's cells."""
+        times = 2**self.refinements
+        around = max(self.around // times, _FEWEST_AROUND)
+        return replace(self, edge=times * self.edge, bulk=times * self.bulk, around=around)
 
 
 def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None)) -> VolumeMesh:
@@ -95,13 +109,21 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         faces = {tag: _name(tank, tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
         _require_covered(tank, owners, faces, 2 ** sum(mirror is not None for mirror in mirrors))
         volume = occ.getMass(*liquid)
-        _set_sizes(tank, sizes, _singular_edges(tank, faces, mirrors))
+        edges, curved = _singular_edges(tank, faces, mirrors), _is_curved(tank)
+        surfaces: dict[tuple[str, ...], Surface] = {}
+        if sizes.refinements:
+            apart = {tag: f"{name}{APART}{tag}" for tag, name in faces.items()}
+            surfaces = _surfaces(apart)
+            sizes, faces = (sizes.coarse, apart) if surfaces else (replace(sizes, refinements=0), faces)
+        _set_sizes(tank, sizes, edges)
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
-            degree = sizes.geometry if _is_curved(tank) else 1
+            degree = sizes.geometry if curved and not sizes.refinements else 1
             if degree > 1:
                 gmsh.model.mesh.setOrder(degree)
         mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name})
+    if sizes.refinements:
+        return VolumeMesh(noded=mesh, volume=volume, surfaces=surfaces, curved=curved)
     if isinstance(tank.bed, SurveyedBed):
         stretched = mesh_integral(mesh, lambda places: np.asarray(bed(places[:, :2]) / tank.depth))
         volume *= stretched / mesh_integral(mesh, lambda places: np.ones(len(places)))
@@ -109,6 +131,27 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
     return VolumeMesh(noded=checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats), volume=volume)
+
+
+def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:
+    """The surface of each face, and a cylinder through each circle between faces in one plane, which do not tell it;
+    none at all if one of them has no closed form: new nodes could not be moved to it."""
+    found: dict[tuple[str, ...], Surface] = {}
+    for tag, name in faces.items():
+        surface = surface_of(tag)
+        if surface is None:
+            return {}
+        found[(name,)] = surface
+    for _, curve in gmsh.model.getEntities(1):
+        pair = [int(tag) for tag in gmsh.model.getAdjacencies(1, curve)[0] if tag in faces]
+        if len(pair) == 2 and gmsh.model.getType(1, curve) != "Line":
+            normals = [found[(faces[tag],)].axis for tag in pair if gmsh.model.getType(2, tag) == "Plane"]
+            if len(normals) == 2 and np.linalg.norm(np.cross(*normals)) < _LEVEL:
+                circle = circle_of(curve)
+                if circle is None:
+                    return {}
+                found[faces[pair[0]], faces[pair[1]]] = circle
+    return found
 
 
 def depth_over(tank: VolumeTank) -> Callable[[FloatArray], FloatArray]:

@@ -23,7 +23,8 @@ from hydroelastic.fem.volume.floats import float_body
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import VolumeResolution
-from hydroelastic.fem.volume.solve import direct_or_multigrid, distributed_volume, solve_volume
+from hydroelastic.fem.volume.distribution import distributed_volume
+from hydroelastic.fem.volume.solve import direct_or_multigrid, solve_volume
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import mesh_volume, unknown_count

@@ -25,20 +25,15 @@ from hydroelastic.fem.plan.classes import (
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.volume.distribution import distributed_volume, with_refinements
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution
-from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
-from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_volume
-from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_ATTEMPTS = 5
-# Largest multiple of cells around curved walls, where they are inverted.
-_MOST_AROUND = 3
 # The decay of the energy in cells at an edge shows 0.36 to 0.57 of the error, that of waves more; measured on plates
 # in boxes and cylinders.
 _OF_EDGES, _OF_WAVES = 3.0, 1.8
@@ -46,8 +41,6 @@ _OF_EDGES, _OF_WAVES = 3.0, 1.8
 _OF_CORNERS = 1.3
 # Cells up to this multiple of the size at edges belong to them.
 _AT_EDGES = 4.0
-# Of the volume's relative error, that of frequencies.
-_GEOMETRY = 2.0
 _ROUNDING = 1e-11
 # Of the asked tolerance, that of Laplace's equation by iteration; measured: 1e-9 changes frequencies by 1e-11.
 _INNER = 1e-2
@@ -122,7 +115,8 @@ def solve_volume(
 
     def solve(resolution: VolumeResolution) -> VolumeSolution:
         attempt = next(attempts)
-        mesh, geometry = distributed_volume(tank, resolution.sizes, mirrors, processes)
+        sizes = with_refinements(tank, resolution.sizes, mirrors)
+        mesh, geometry = distributed_volume(tank, sizes, mirrors, processes)
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
@@ -158,40 +152,6 @@ def solve_volume(
         rounds=_MOST_ATTEMPTS,
         failures=(TooLargeError,),
     ).solution
-
-
-def distributed_volume(
-    tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors, comm: MPI.Comm
-) -> tuple[TankMesh, float]:
-    """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls (collective).
-
-    Raises:
-        MeshError: if the volume cannot be meshed.
-    """
-    made: VolumeMesh | MeshError | None = None
-    if comm.rank == 0:
-        try:
-            made = unfolded_volume(tank, sizes, mirrors)
-        except MeshError as error:
-            made = error
-    failed, deviation = comm.bcast(
-        (made, 0.0)
-        if isinstance(made, MeshError)
-        else (None, abs(mesh_volume(made.noded) / made.volume - 1.0) if made else 0.0)
-    )
-    if failed is not None:
-        raise failed
-    return distribute_nodes(comm, made.noded if isinstance(made, VolumeMesh) else None), _GEOMETRY * deviation
-
-
-def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:
-    """A mesh with more cells around curved walls where they would be inverted."""
-    for more in range(1, _MOST_AROUND):
-        try:
-            return volume_mesh(tank, replace(sizes, around=more * sizes.around), mirrors)
-        except FoldedError:
-            continue
-    return volume_mesh(tank, replace(sizes, around=_MOST_AROUND * sizes.around), mirrors)
 
 
 def require_memory(unknowns: int, degree: int, comm: MPI.Comm) -> None:

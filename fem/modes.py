@@ -22,6 +22,8 @@ HIDDEN = 1e-14
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
+# Seed of the random vector from which modes are sought once more; SLEPc begins with another one.
+_SECOND_START = 2
 
 
 class EigenSolverError(RuntimeError):
@@ -76,6 +78,7 @@ class ModeSet:
     iterations: int
     solves: int
     growing: tuple[Mode, ...] = ()
+    eigenvectors: tuple[PETSc.Vec, ...] = ()
 
 
 def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
@@ -135,7 +138,34 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before if pencil.answer is None else pencil.size,
         growing=_growing(pencil, kinetics, tolerance),
+        eigenvectors=tuple(displacements),
     )
+
+
+def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> float:
+    """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
+
+    A mode that was missed, one of two with the same frequency say, has a part in a random vector.
+
+    Args:
+        pencil: the coupled problem, of bodies without growing motions.
+        modes: its lowest modes.
+        tolerance: relative residual that is accepted.
+
+    Raises:
+        EigenSolverError: if SLEPc stops before it has converged.
+    """
+    kinetics = CondensedKinetics(pencil)
+    found = len(modes.eigenvectors)
+    if found >= pencil.size - len(pencil.constraints) - pencil.zero_mode_count:
+        return np.inf
+    solver = _krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setDeflationSpace(list(modes.eigenvectors))
+    start = pencil.stiffness.createVecRight()
+    start.array[:] = np.random.default_rng([_SECOND_START, start.comm.rank]).standard_normal(start.local_size)
+    solver.setInitialSpace([start])
+    _, (inverse,) = _inverses(solver, 1, tolerance)
+    return float(1.0 / inverse) if inverse > 0.0 else np.inf
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:

@@ -26,9 +26,7 @@ APART = "@"
 _CURVED_DEGREE = 2
 
 
-def refined_mesh(
-    coarse: TankMesh, surfaces: dict[tuple[str, ...], Surface], times: int, *, curved: bool
-) -> TankMesh:
+def refined_mesh(coarse: TankMesh, surfaces: dict[tuple[str, ...], Surface], times: int, *, curved: bool) -> TankMesh:
     """Divide each cell into eight, several times (collective).
 
     Args:

@@ -93,7 +93,9 @@ def circle_of(curve: int) -> Surface | None:
     across = np.linalg.svd(points - middle)[2][:2]
     # |x|² = 2 c·x + (R² − |c|²) in the plane of the circle
     plane = (points - middle) @ across.T
-    *centre, rest = np.linalg.lstsq(np.column_stack([2.0 * plane, np.ones(_POINTS)]), (plane**2).sum(axis=1), rcond=None)[0]
+    *centre, rest = np.linalg.lstsq(
+        np.column_stack([2.0 * plane, np.ones(_POINTS)]), (plane**2).sum(axis=1), rcond=None
+    )[0]
     found = Surface(
         point=middle + np.array(centre) @ across,
         axis=np.cross(*across),
@@ -120,6 +122,8 @@ def moved_to(surfaces: list[Surface], points: FloatArray, lies_on: np.ndarray) -
         chosen = np.flatnonzero(of_points.ravel() == number)
         for _ in range(_STEPS if own else 0):
             distances, gradients = zip(*(one.distances(moved[chosen]) for one in own), strict=True)
-            steps = np.linalg.pinv(np.stack(gradients, axis=1), rcond=_DEPENDENT) @ np.stack(distances, axis=1)[..., None]
+            steps = (
+                np.linalg.pinv(np.stack(gradients, axis=1), rcond=_DEPENDENT) @ np.stack(distances, axis=1)[..., None]
+            )
             moved[chosen] -= steps[..., 0]
     return moved

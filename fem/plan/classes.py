@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, lowest_beyond, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.meshes.plan_loops import Mirrors
@@ -17,6 +17,8 @@ from hydroelastic.physics.arrays import FloatArray
 
 # Of the tolerance, the residual to which modes are solved.
 _OF_RESIDUALS = 1e-3
+# Residual of the modes that a second start finds, which enters their λ squared.
+_OF_SECOND_START = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -169,6 +171,15 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
         if count_below(pencil, shift) != int(np.sum(one.modes.eigenvalues < shift)):
             return False
     return True
+
+
+def no_mode_is_beyond(solution: ClassModes) -> bool:
+    """Whether a second start finds no further mode of any class below the widest of the last gaps (collective).
+
+    Each eigenvalue found has another one within its residual, so that none is too many.
+    """
+    shift = shift_above(solution.eigenvalues)
+    return all(lowest_beyond(one.pencil, one.modes, _OF_SECOND_START) > shift for one in solution.classes)
 
 
 def merged_errors(

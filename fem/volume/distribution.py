@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import ceil, log, pi
 
 import numpy as np
 from dolfinx.mesh import Mesh
@@ -17,35 +16,12 @@ from hydroelastic.meshes.refinement import refined_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integral, mesh_volume, smallest_jacobians
 from hydroelastic.meshes.volume import VolumeSizes, depth_over, volume_mesh
-from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
-
-LARGEST_MESH = 100_000
-"""Up to so many cells gmsh makes the mesh; it makes 27,000 in a second, on one process."""
 
 # Largest multiple of cells around curved walls, where they are inverted.
 _MOST_AROUND = 3
 # Of the volume's relative error, that of frequencies.
 _GEOMETRY = 2.0
-# Cells of edge h in a volume over that over h³, and growing from edges of plates over their length over h; measured.
-_OF_VOLUME, _OF_EDGES = 8.5, 37.0
-_MOST_REFINEMENTS = 4
-
-
-def with_refinements(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeSizes:
-    """Return sizes with as many refinements that gmsh makes no more than about `LARGEST_MESH` cells."""
-    if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
-        return sizes
-    levels = ceil(log(expected_cells(tank, sizes, mirrors) / LARGEST_MESH, 8))
-    return replace(sizes, refinements=min(max(0, levels), _MOST_REFINEMENTS))
-
-
-def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> float:
-    """Return about the number of cells of a mesh between planes of symmetry, without making it."""
-    lengths = [4.0 * plate.outline.area**0.5 for plate in tank.plates]
-    lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
-    cells = _OF_VOLUME * tank.plan.area * tank.depth / sizes.bulk**3 + _OF_EDGES * sum(lengths) / sizes.edge
-    return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
 
 
 def distributed_volume(

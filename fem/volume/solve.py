@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.cells import cell_corners, owned_cells
+from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.modes import Mode
@@ -20,25 +21,27 @@ from hydroelastic.fem.plan.classes import (
     SymmetryClass,
     count_is_confirmed,
     merged_errors,
+    no_mode_is_beyond,
     solve_classes,
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
-from hydroelastic.fem.volume.distribution import distributed_volume, with_refinements
+from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
+from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
-from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution
+from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution, with_refinements
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_ATTEMPTS = 5
-# The decay of the energy in cells at an edge shows 0.36 to 0.57 of the error, that of waves more; measured on plates
-# in boxes and cylinders.
-_OF_EDGES, _OF_WAVES = 3.0, 1.8
-# Of the corners of floats, ψ ~ r^(2/3), it shows all; measured on floating cylinders.
-_OF_CORNERS = 1.3
+# True errors over those shown at edges of plates, at corners of floats and of waves; measured on plates in boxes and
+# cylinders and on floating cylinders. By the decay of the energy with the degree 0.36 to 0.57 of the error is shown at
+# edges, all of it at corners; by what the third degree adds to the second one 0.8, 0.62, and 0.95 of waves.
+_DECAY = (3.0, 1.3, 1.8)
+_CUBIC = (1.5, 1.9, 1.2)
 # Cells up to this multiple of the size at edges belong to them.
 _AT_EDGES = 4.0
 _ROUNDING = 1e-11
@@ -58,7 +61,8 @@ class VolumeSolution:
         model: the tank in its last resolution.
         modes: the lowest modes, one more than asked for.
         errors: of their frequencies.
-        counted: whether a coarser model confirms the number of modes.
+        counted: whether the number of modes is confirmed.
+        count_method: by what: the inertia of a coarser model, or a second start.
         attempts: number of resolutions that were solved.
         iterations: mean number of iterations of Laplace's equation; 0 of a direct solver.
     """
@@ -67,6 +71,7 @@ class VolumeSolution:
     modes: ClassModes
     errors: VolumeErrors
     counted: bool
+    count_method: str
     attempts: int
     iterations: float
 
@@ -81,6 +86,12 @@ class VolumeSolution:
             "layers": 0,
             "poles": 0,
         }
+
+    @property
+    def remark(self) -> str:
+        """What the model of volumes adds to its name."""
+        quadratic = self.model.resolution.degree == DEGREE
+        return ", of the second degree with errors by what the third adds" if quadratic else ""
 
     @property
     def relative_errors(self) -> np.ndarray:
@@ -124,25 +135,33 @@ def solve_volume(
         modes = solve_classes(model.pencils(partial(direct_or_multigrid, tolerance=tolerance)), count + 1, tolerance)
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
-            edges, waves = _liquid_errors(one.pencil.liquid, some, resolution.sizes.edge)
-            edges *= _OF_EDGES if tank.plates else _OF_CORNERS
+            edges, waves = _liquid_errors(one, model, some)
             return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)
         coarser = replace(model, resolution=resolution.coarser)
+        # Motions that grow have no second start, and are of small tanks.
+        growing = any(len(one.pencil.unstable) for one in modes.classes)
+        by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
+        counted = (
+            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver))
+            if by_inertia
+            else no_mode_is_beyond(modes)
+        )
         solvers = [one.pencil.solver for one in modes.classes]
         iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
         return VolumeSolution(
             model=model,
             modes=modes,
             errors=VolumeErrors(edges=edges, waves=waves, geometry=np.full(len(edges), geometry), plates=plates),
-            counted=count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver)),
+            counted=counted,
+            count_method=BY_INERTIA if by_inertia else "residuals, and a second start vector",
             attempts=attempt,
             iterations=float(np.mean(iterations)) if iterations else 0.0,
         )
 
     return adaptive_solve(
-        volume_resolution(tank, tolerance, count),
+        volume_resolution(tank, tolerance, count, mirrors),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
@@ -208,17 +227,22 @@ class _Unused:
         raise AssertionError("a problem that is only counted in has no solver")
 
 
-def _liquid_errors(liquid: LiquidSpace, modes: list[Mode], edge: float) -> tuple[np.ndarray, np.ndarray]:
-    """Relative errors of ω by ψ at edges and elsewhere, from the decay of ∇ψ with the degree (collective)."""
-    cells = cell_errors(liquid, [mode.potential for mode in modes])
-    mesh = liquid.tank.mesh
+def _liquid_errors(one: SymmetryClass, model: VolumeModel, modes: list[Mode]) -> tuple[np.ndarray, np.ndarray]:
+    """Relative errors of ω by ψ at edges and elsewhere, in one of the parts that are alike (collective)."""
+    quadratic = model.resolution.degree == DEGREE
+    if quadratic:
+        cells = cubic_errors(one.pencil, model.plates[one.parity], modes)
+    else:
+        cells = cell_errors(one.pencil.liquid, [mode.potential for mode in modes])
+    mesh = model.mesh.mesh
     corners = cell_corners(mesh, owned_cells(mesh))
     # The edge of the regular tetrahedron of the same volume.
     sizes = np.cbrt(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) * np.sqrt(2.0))
-    small = sizes < _AT_EDGES * edge
+    small = sizes < _AT_EDGES * model.resolution.sizes.edge
     parts = np.array([cells[:, small].sum(axis=1), cells[:, ~small].sum(axis=1)])
     edges, waves = 0.5 * mesh.comm.allreduce(parts)
-    return edges, _OF_WAVES * waves
+    of_edges, of_corners, of_waves = _CUBIC if quadratic else _DECAY
+    return (of_edges if model.tank.plates else of_corners) * edges, of_waves * waves
 
 
 def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:

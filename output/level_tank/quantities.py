@@ -203,7 +203,9 @@ SOLVER = Group("solver", "how the modes were found", (
     Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
     Quantity("attempts", "resolutions that were solved", "1"),
     Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
-        value=lambda tank: tank.counted),
+        value=lambda tank: tank.counted, note="by what, `count_method` tells"),
+    Quantity("count_method", "what confirms the number of modes",
+        note='`"inertia"` of the matrices of a coarser model; of large volumes residuals and a second start'),
     Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
     Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
 ), record=lambda it: it.tank)

@@ -20,6 +20,8 @@ from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
 
 # Largest multiple of cells around curved walls, where they are inverted.
 _MOST_AROUND = 3
+# Most cells around a curved wall that are tried where they are inverted by a refinement.
+_MOST_COARSE = 48
 # Of the volume's relative error, that of frequencies.
 _GEOMETRY = 2.0
 
@@ -48,7 +50,12 @@ def distributed_volume(
     if surfaces:
         del made, whole
         mesh = refined_mesh(mesh, surfaces, sizes.refinements, curved=curved)
-        volume, meshed = _shaped(tank, mesh.mesh, volume)
+        try:
+            volume, meshed = _shaped(tank, mesh.mesh, volume)
+        except FoldedError:
+            if sizes.coarse.around > _MOST_COARSE:
+                raise
+            return distributed_volume(tank, replace(sizes, around=2 * sizes.around), mirrors, comm)
     return mesh, _GEOMETRY * abs(meshed / volume - 1.0)
 
 

@@ -40,6 +40,23 @@ def _with_unit(found: re.Match[bytes]) -> bytes:
     return found[1] + key.encode() + found[3]
 
 
+def write_index(path: Path, parts: Iterable[str], arrays: Iterable[str]) -> None:
+    """Write a PVTU file, by which ParaView reads VTU files as one.
+
+    Args:
+        path: of the file.
+        parts: names of the files, relative to its folder.
+        arrays: names of their arrays at points, one number each.
+    """
+    text = (
+        '<?xml version="1.0"?>\n<VTKFile type="PUnstructuredGrid" version="0.1">\n <PUnstructuredGrid GhostLevel="0">\n'
+    )
+    text += '  <PPoints>\n   <PDataArray type="Float64" NumberOfComponents="3"/>\n  </PPoints>\n  <PPointData>\n'
+    text += "".join(f'   <PDataArray type="Float64" Name={quoteattr(name)}/>\n' for name in arrays)
+    text += "  </PPointData>\n" + "".join(f"  <Piece Source={quoteattr(part)}/>\n" for part in parts)
+    path.write_text(text + " </PUnstructuredGrid>\n</VTKFile>\n", encoding="utf-8")
+
+
 def write_collection(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:
     """Write a PVD file, which ParaView plays.
 

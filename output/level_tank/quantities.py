@@ -14,7 +14,7 @@ from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mod
 from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
-from hydroelastic.output.provenance import PROCESSES
+from hydroelastic.output.provenance import PROCESSES, largest_memory
 from hydroelastic.output.quantities import Group, Quantity, array
 
 
@@ -222,6 +222,7 @@ SIZE = Group("size", "size of the problem", (
     Quantity("surface_unknowns", "unknowns of plates and water", "1"),
     Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
     PROCESSES,
+    Quantity("memory_of_a_process", "largest memory of one process", "byte", value=lambda _: largest_memory()),
 ), record=lambda it: it.tank.size)
 # Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (

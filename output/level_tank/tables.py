@@ -65,8 +65,10 @@ def level_tank_cost(summary: Summary) -> str:
     """Return size and cost of the solution."""
     size = summary["size"]
     seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
+    mebibytes = size["memory_of_a_process"] / 2**20
+    largest = f", at most {mebibytes:.0f} of one of {size['processes']} processes" if size["processes"] > 1 else ""
     problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
     return (
         f"{problems}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
-        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB{largest}."
     )

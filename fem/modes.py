@@ -11,7 +11,7 @@ from petsc4py import PETSc
 from scipy.linalg import lapack
 from slepc4py import SLEPc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, dense
+from hydroelastic.fem.added_mass import CondensedKinetics, Operator, dense
 from hydroelastic.fem.direct import configure_direct, configure_indefinite
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
@@ -81,7 +81,22 @@ class ModeSet:
     eigenvectors: tuple[PETSc.Vec, ...] = ()
 
 
-def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
+Products = Callable[[Operator], Operator]
+"""Makes an operator with the same products of another one, which it keeps or counts, say."""
+
+
+def _made(operator: Operator) -> Operator:
+    return operator
+
+
+def solve_modes(
+    pencil: CoupledPencil,
+    count: int,
+    *,
+    shapes: int | None = None,
+    tolerance: float = 1e-12,
+    products: Products = _made,
+) -> ModeSet:
     """Lowest modes of the coupled problem.
 
     Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
@@ -92,6 +107,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         count: number of modes; fewer are returned if the model has fewer, or the highest are lost in rounding.
         shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
+        products: of the operator, which may be read instead of made; see `fem.checkpoint`.
 
     Returns:
         The modes (collective).
@@ -105,7 +121,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     before = pencil.solver.solves
     if count == 0:
         return _no_modes(pencil, kinetics, tolerance)
-    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
+    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
     converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     # M + M_a is positive: eigenvalues that are not, or nearly zero, are rounding of the largest.
@@ -142,7 +158,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     )
 
 
-def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> float:
+def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, products: Products = _made) -> float:
     """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
 
     A mode that was missed, one of two with the same frequency say, has a part in a random vector.
@@ -151,6 +167,7 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> fl
         pencil: the coupled problem, of bodies without growing motions.
         modes: its lowest modes.
         tolerance: relative residual that is accepted.
+        products: of the operator; see `solve_modes`.
 
     Raises:
         EigenSolverError: if SLEPc stops before it has converged.
@@ -159,7 +176,7 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> fl
     found = len(modes.eigenvectors)
     if found >= pencil.size - len(pencil.constraints) - pencil.zero_mode_count:
         return np.inf
-    solver = _krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
+    solver = _krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
     solver.setDeflationSpace(list(modes.eigenvectors))
     start = pencil.stiffness.createVecRight()
     start.array[:] = np.random.default_rng([_SECOND_START, start.comm.rank]).standard_normal(start.local_size)
@@ -221,13 +238,18 @@ def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.
 
 
 def _krylov_schur(
-    pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float, which: SLEPc.EPS.Which
+    pencil: CoupledPencil,
+    kinetics: CondensedKinetics,
+    count: int,
+    tolerance: float,
+    which: SLEPc.EPS.Which,
+    products: Products = _made,
 ) -> SLEPc.EPS:
     stable = len(pencil.unstable) == 0
     if stable and pencil.answer is not None:
         operator = PETSc.Mat().createDense(pencil.stiffness.getSizes(), array=kinetics.matrix(), comm=PETSc.COMM_SELF)
     else:
-        context = kinetics if stable else _Turned(kinetics)
+        context = products(kinetics if stable else _Turned(kinetics))
         operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
         operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)

@@ -13,6 +13,8 @@ import pytest
 from level_tanks import CASES, reference_tank
 
 from hydroelastic.benchmarks.volume_scaling import measured
+from hydroelastic.fem import checkpoint
+from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import liquid_space
 from hydroelastic.fem.modes import lowest_beyond, solve_modes
@@ -20,6 +22,7 @@ from hydroelastic.fem.plan.classes import merged_errors, no_mode_is_beyond, solv
 from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.fem.shape_loads import facet_quadrature, surface_load
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.volume import solve as volume_solve
 from hydroelastic.fem.volume.cubic_errors import cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.floats import float_body
@@ -385,6 +388,43 @@ def test_the_third_degree_shows_the_errors_of_the_second_and_a_second_start_find
     left_out = replace(one.modes, eigenvectors=one.modes.eigenvectors[1:])
     assert lowest_beyond(one.pencil, left_out, 1e-4) == pytest.approx(one.modes.eigenvalues[0], rel=1e-6)
     assert not no_mode_is_beyond(replace(classes, classes=(replace(one, modes=left_out), *classes.classes[1:])))
+
+
+@pytest.mark.mpi
+def test_a_run_that_was_ended_goes_on_from_its_last_product(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    from mpi4py import MPI
+
+    comm = MPI.COMM_WORLD
+    folder = comm.bcast(tmp_path)
+    monkeypatch.setattr(checkpoint, "cache_folder", lambda: folder)
+    monkeypatch.setattr(volume_solve, "DIRECT_UNKNOWNS", 0)
+    monkeypatch.setattr(volume_solve, "direct_or_multigrid", partial(direct_or_multigrid, largest=0))
+    plan, bed = Box(length=3.0, width=2.0), SlopingBed(slope=(0.2, 0.1))
+    tank = VolumeTank(plan=plan, depth=1.0, density=1.0, gravity=1.0, bed=bed).scaled()
+    made: list[None] = []
+    product = CondensedKinetics.mult
+
+    def counted(self: CondensedKinetics, *arguments: Any) -> None:
+        made.append(None)
+        product(self, *arguments)
+
+    monkeypatch.setattr(CondensedKinetics, "mult", counted)
+    # What a process that is killed leaves: eight products, and a ninth one that is not complete.
+    with monkeypatch.context() as killed:
+        killed.setattr(checkpoint.shutil, "rmtree", lambda *_, **__: None)
+        whole = solve_volume(tank, tolerance=1e-2, count=2).modes.eigenvalues
+    comm.Barrier()
+    files = sorted(folder.glob("unfinished/*/*.products"))
+    assert len(files) == len(made)
+    comm.Barrier()
+    if comm.rank == 0:
+        files[8].rename(files[8].with_name("part"))
+    comm.Barrier()
+    before = len(made)
+    assert solve_volume(tank, tolerance=1e-2, count=2).modes.eigenvalues == pytest.approx(whole, rel=1e-12)
+    assert len(made) - before == before - 8
+    comm.Barrier()
+    assert not list(folder.glob("unfinished/*"))
 
 
 def test_unknowns_told_in_advance_are_those_of_the_space() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import count as numbered
 
@@ -12,10 +12,11 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.cells import cell_corners, owned_cells
+from hydroelastic.fem.checkpoint import Checkpoint, unfinished_run
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.modes import Mode, Products
 from hydroelastic.fem.plan.classes import (
     ClassModes,
     SymmetryClass,
@@ -32,7 +33,13 @@ from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
-from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution, with_refinements
+from hydroelastic.fem.volume.resolution import (
+    VolumeErrors,
+    VolumeResolution,
+    resolution_of,
+    volume_resolution,
+    with_refinements,
+)
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.volume_tank import VolumeTank
 
@@ -116,23 +123,43 @@ def solve_volume(
         comm: the processes over which the mesh is distributed; all by default.
         report: receives messages on the progress.
 
+    A long solution that was ended goes on from its last product; see `fem.checkpoint`.
+
     Raises:
         MeshError: if the volume cannot be meshed.
         TooLargeError: if the first resolution does not fit into memory.
     """
     processes = comm or MPI.COMM_WORLD
-    attempts = numbered(1)
+    with unfinished_run(f"{tank!r} {tolerance!r} {count}", processes) as unfinished:
+        return _solve(tank, tolerance, count, processes, unfinished, report)
+
+
+def _solve(
+    tank: VolumeTank, tolerance: float, count: int, processes: MPI.Comm, unfinished: Checkpoint | None, report: Report
+) -> VolumeSolution:
     mirrors = volume_mirrors(tank)
+    start, first = volume_resolution(tank, tolerance, count, mirrors), 1
+    if unfinished is not None and unfinished.state is not None:
+        start, first = resolution_of(unfinished.state["resolution"]), unfinished.state["attempt"]
+        report(f"attempt {first} of a run that did not end is continued")
+    attempts = numbered(first)
 
     def solve(resolution: VolumeResolution) -> VolumeSolution:
         attempt = next(attempts)
+        options: dict[str, Products] = {}
         sizes = with_refinements(tank, resolution.sizes, mirrors)
         mesh, geometry = distributed_volume(tank, sizes, mirrors, processes)
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
         require_memory(size, resolution.degree, processes)
-        modes = solve_classes(model.pencils(partial(direct_or_multigrid, tolerance=tolerance)), count + 1, tolerance)
+        pencils = model.pencils(partial(direct_or_multigrid, tolerance=tolerance))
+        if unfinished is not None and any(isinstance(one.solver, MultigridSolver) for one in pencils.values()):
+            # Products of other matrices, of a changed file say, are none of these.
+            norms = [f"{part.norm():.9e}" for one in pencils.values() for part in (one.laplace, one.coupling, one.mass)]
+            unfinished.begin({"attempt": attempt, "resolution": asdict(resolution), "norms": norms})
+            options = {"products": unfinished.of}
+        modes = solve_classes(pencils, count + 1, tolerance, **options)
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one, model, some)
@@ -146,7 +173,7 @@ def solve_volume(
         counted = (
             count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver))
             if by_inertia
-            else no_mode_is_beyond(modes)
+            else no_mode_is_beyond(modes, **options)
         )
         solvers = [one.pencil.solver for one in modes.classes]
         iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
@@ -161,7 +188,7 @@ def solve_volume(
         )
 
     return adaptive_solve(
-        volume_resolution(tank, tolerance, count, mirrors),
+        start,
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)

@@ -85,7 +85,8 @@ Products = Callable[[Operator], Operator]
 """Makes an operator with the same products of another one, which it keeps or counts, say."""
 
 
-def _made(operator: Operator) -> Operator:
+def as_made(operator: Operator) -> Operator:
+    """Return the operator itself."""
     return operator
 
 
@@ -95,7 +96,7 @@ def solve_modes(
     *,
     shapes: int | None = None,
     tolerance: float = 1e-12,
-    products: Products = _made,
+    products: Products = as_made,
 ) -> ModeSet:
     """Lowest modes of the coupled problem.
 
@@ -158,7 +159,7 @@ def solve_modes(
     )
 
 
-def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, products: Products = _made) -> float:
+def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, products: Products = as_made) -> float:
     """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
 
     A mode that was missed, one of two with the same frequency say, has a part in a random vector.
@@ -243,7 +244,7 @@ def _krylov_schur(
     count: int,
     tolerance: float,
     which: SLEPc.EPS.Which,
-    products: Products = _made,
+    products: Products = as_made,
 ) -> SLEPc.EPS:
     stable = len(pencil.unstable) == 0
     if stable and pencil.answer is not None:

@@ -145,8 +145,9 @@ def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:
     for _, curve in gmsh.model.getEntities(1):
         pair = [int(tag) for tag in gmsh.model.getAdjacencies(1, curve)[0] if tag in faces]
         if len(pair) == 2 and gmsh.model.getType(1, curve) != "Line":
-            normals = [found[(faces[tag],)].axis for tag in pair if gmsh.model.getType(2, tag) == "Plane"]
-            if len(normals) == 2 and np.linalg.norm(np.cross(*normals)) < _LEVEL:
+            normals = np.array([gmsh.model.getNormal(tag, [0.0, 0.0]) for tag in pair])
+            planes = all(gmsh.model.getType(2, tag) == "Plane" for tag in pair)
+            if planes and abs(normals[0] @ normals[1]) > 1.0 - _LEVEL:
                 circle = circle_of(curve)
                 if circle is None:
                     return {}

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, count_below, lowest_beyond, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, as_made, count_below, lowest_beyond, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.meshes.plan_loops import Mirrors
@@ -108,7 +108,7 @@ class ClassModes:
 
 
 def solve_classes(
-    pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float, **options: Products
+    pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float, products: Products = as_made
 ) -> ClassModes:
     """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
 
@@ -116,10 +116,10 @@ def solve_classes(
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
         tolerance: largest relative error of frequencies that is accepted.
-        options: ``products`` of `solve_modes`.
+        products: of the operators; see `solve_modes`.
     """
     # The error of λ is that of the residual squared.
-    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12), **options)
+    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12), products=products)
     if not pencils:
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
@@ -176,13 +176,13 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
     return True
 
 
-def no_mode_is_beyond(solution: ClassModes, **options: Products) -> bool:
+def no_mode_is_beyond(solution: ClassModes, products: Products = as_made) -> bool:
     """Whether a second start finds no further mode of any class below the widest of the last gaps (collective).
 
     Each eigenvalue found has another one within its residual, so that none is too many.
     """
     shift = shift_above(solution.eigenvalues)
-    return all(lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, **options) > shift for one in solution.classes)
+    return all(lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, products) > shift for one in solution.classes)
 
 
 def merged_errors(

@@ -44,9 +44,9 @@ def distributed_volume(
         raise comm.bcast(made)
     whole = made if isinstance(made, VolumeMesh) else None
     volume, surfaces, curved, meshed = comm.bcast(
-        whole and (whole.volume, whole.surfaces, whole.curved, mesh_volume(whole.noded))
+        None if whole is None else (whole.volume, whole.surfaces, whole.curved, mesh_volume(whole.noded))
     )
-    mesh = distribute_nodes(comm, whole and whole.noded)
+    mesh = distribute_nodes(comm, None if whole is None else whole.noded)
     if surfaces:
         del made, whole
         mesh = refined_mesh(mesh, surfaces, sizes.refinements, curved=curved)

@@ -16,7 +16,7 @@ from hydroelastic.fem.checkpoint import Checkpoint, unfinished_run
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
-from hydroelastic.fem.modes import Mode, Products
+from hydroelastic.fem.modes import Mode, Products, as_made
 from hydroelastic.fem.plan.classes import (
     ClassModes,
     SymmetryClass,
@@ -146,7 +146,7 @@ def _solve(
 
     def solve(resolution: VolumeResolution) -> VolumeSolution:
         attempt = next(attempts)
-        options: dict[str, Products] = {}
+        products: Products = as_made
         sizes = with_refinements(tank, resolution.sizes, mirrors)
         mesh, geometry = distributed_volume(tank, sizes, mirrors, processes)
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
@@ -158,8 +158,8 @@ def _solve(
             # Products of other matrices, of a changed file say, are none of these.
             norms = [f"{part.norm():.9e}" for one in pencils.values() for part in (one.laplace, one.coupling, one.mass)]
             unfinished.begin({"attempt": attempt, "resolution": asdict(resolution), "norms": norms})
-            options = {"products": unfinished.of}
-        modes = solve_classes(pencils, count + 1, tolerance, **options)
+            products = unfinished.of
+        modes = solve_classes(pencils, count + 1, tolerance, products)
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one, model, some)
@@ -173,7 +173,7 @@ def _solve(
         counted = (
             count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver))
             if by_inertia
-            else no_mode_is_beyond(modes, **options)
+            else no_mode_is_beyond(modes, products)
         )
         solvers = [one.pencil.solver for one in modes.classes]
         iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]

@@ -33,14 +33,6 @@ def _liquid_momentum(
     pencil.momentum.multTranspose(potential, momentum)
 
 
-def dense(matrix: PETSc.Mat) -> np.ndarray:
-    """A matrix of one process as a dense array, in Fortran's order."""
-    # The array lives as long as the matrix.
-    full = matrix.convert("dense", PETSc.Mat())
-    values: np.ndarray = full.getDenseArray().copy(order="F")
-    return values
-
-
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
     """Added-mass matrix of the body shapes with the free surface fixed.
 
@@ -177,21 +169,6 @@ class CondensedKinetics:
         set_entries(result, self.free_rigid, np.zeros(len(self.free_rigid)))
         for volume, pressure in zip(self._kept, [c.dot(result) for c in self._corrections], strict=True):
             result.axpy(-pressure, volume)
-
-    def matrix(self) -> np.ndarray:
-        """M_c itself, where the answer of the liquid is known, shape (n, n)."""
-        assert self.pencil.answer is not None
-        whole = dense(self.pencil.mass) + self.pencil.answer.added_mass
-        if self._columns:
-            columns = np.array([column.array_r for column in self._columns])
-            whole -= columns.T @ np.linalg.solve(self._dense, columns)
-        whole[self.free_rigid] = 0.0
-        whole[:, self.free_rigid] = 0.0
-        for correction, volume in zip(self._corrections, self._kept, strict=True):
-            # Each keeps one volume and leaves the others as they are.
-            whole -= np.outer(whole @ correction.array_r, volume.array_r)
-            whole -= np.outer(volume.array_r, correction.array_r @ whole)
-        return whole
 
     def _project(self, displacement: PETSc.Vec) -> None:
         """Project onto e: remove free rigid motions, and volume where a constraint acts on e."""

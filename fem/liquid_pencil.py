@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from petsc4py import PETSc
 
-from hydroelastic.fem.added_mass import dense
 from hydroelastic.fem.liquid import (
     LiquidSolver,
     LiquidSpace,
@@ -14,8 +13,9 @@ from hydroelastic.fem.liquid import (
     closed_layers,
     constrained_dofs,
 )
+from hydroelastic.fem.liquid_answer import LiquidAnswer, dense, liquid_answer
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
-from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, coupled_pencil, loads_on_first
+from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -58,10 +58,10 @@ def build_pencil(
         solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         closed=layers,
     )
-    return replace(pencil, answer=liquid_answer(pencil, _FEW))
+    return replace(pencil, answer=answered(pencil, _FEW))
 
 
-def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:
+def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:
     """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation at once, after which a
     product with a matrix takes the place of each; ``None`` on several processes, or with more unknowns than that.
 
@@ -75,8 +75,7 @@ def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer
     potentials = pencil.solver.solve_all(dense(pencil.coupling))
     columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
     momentum = pencil.momentum.transposeMatMult(columns)
-    added_mass = momentum.getDenseArray()
-    return LiquidAnswer(potentials=potentials, added_mass=0.5 * (added_mass + added_mass.T))
+    return liquid_answer(potentials, momentum.getDenseArray(), pencil.stiffness, pencil.body_size)
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:

@@ -1,20 +1,24 @@
-"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, and an independent count."""
+"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, LAPACK where it is small."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.linalg import lapack
-from slepc4py import SLEPc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, Operator, dense
-from hydroelastic.fem.direct import configure_direct, configure_indefinite
+from hydroelastic.fem.added_mass import CondensedKinetics, Operator
+from hydroelastic.fem.dense_modes import FEW, CompletedModes, DenseModes
+from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
+
+if TYPE_CHECKING:
+    from slepc4py import SLEPc
 
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
@@ -22,8 +26,8 @@ HIDDEN = 1e-14
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
-# Seed of the random vector from which modes are sought once more; SLEPc begins with another one.
-_SECOND_START = 2
+# Neighbouring modes that are completed together where the answer of the liquid is known.
+_AT_ONCE = 8
 
 
 class EigenSolverError(RuntimeError):
@@ -65,8 +69,10 @@ class ModeSet:
         zero_modes: how many motions without stiffness exist (not reported as modes).
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: number of converged eigenpairs.
-        iterations: restarts of the Krylov–Schur method.
+        iterations: restarts of the Krylov–Schur method; 0 of LAPACK.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
+        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
+        eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
     """
 
     eigenvalues: np.ndarray
@@ -101,7 +107,8 @@ def solve_modes(
     """Lowest modes of the coupled problem.
 
     Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
-    surface, and nothing is shifted.
+    surface, and nothing is shifted. Where the answer of the liquid to all surface unknowns is known and they are few,
+    LAPACK finds all modes.
 
     Args:
         pencil: the coupled problem.
@@ -116,19 +123,20 @@ def solve_modes(
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
+    if pencil.answer is not None and not len(pencil.unstable):
+        return _dense_modes(pencil, DenseModes(pencil, pencil.answer), (count, shapes), tolerance)
+    from slepc4py import SLEPc  # slow to import
+
     kinetics = CondensedKinetics(pencil)
     available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - kinetics.negative
     count = min(count, available)
     before = pencil.solver.solves
     if count == 0:
         return _no_modes(pencil, kinetics, tolerance)
-    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
-    converged, inverses = _inverses(solver, count, tolerance)
+    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
+    converged, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
-    # M + M_a is positive: eigenvalues that are not, or nearly zero, are rounding of the largest.
-    count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
-    if count == 0:
-        raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {inverses.max(initial=0.0):g}")
+    count = _visible(inverses)
     order = order[:count]
     eigenvalues = 1.0 / inverses[order]
     wanted = count if shapes is None else min(shapes, count)
@@ -159,31 +167,80 @@ def solve_modes(
     )
 
 
-def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, products: Products = as_made) -> float:
-    """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
+def _visible(inverses: np.ndarray) -> int:
+    """How many 1/λ are eigenvalues: M + M_a is positive, and those that are not, or nearly zero, are rounding of the
+    largest."""
+    largest = inverses.max(initial=0.0)
+    count = int(np.sum(inverses > HIDDEN * largest))
+    if count == 0:
+        raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {largest:g}")
+    return count
 
-    A mode that was missed, one of two with the same frequency say, has a part in a random vector.
 
-    Args:
-        pencil: the coupled problem, of bodies without growing motions.
-        modes: its lowest modes.
-        tolerance: relative residual that is accepted.
-        products: of the operator; see `solve_modes`.
+def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int | None], tolerance: float) -> ModeSet:
+    """A number of the lowest modes, and their shapes: all by LAPACK where there are few, else by SLEPc."""
+    count, shapes = asked
+    count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
+    if pencil.size <= FEW or not count:
+        values, columns = np.linalg.eigh(dense.operator())
+        inverses, vectors, iterations = values[::-1], columns[:, ::-1], 0
+    else:
+        inverses, vectors, iterations = _largest(dense.operator(), count, tolerance)
+    count = _visible(inverses[:count]) if count else 0
+    eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
+    amplitudes = dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T
 
-    Raises:
-        EigenSolverError: if SLEPc stops before it has converged.
-    """
-    kinetics = CondensedKinetics(pencil)
-    found = len(modes.eigenvectors)
-    if found >= pencil.size - len(pencil.constraints) - pencil.zero_mode_count:
-        return np.inf
-    solver = _krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
-    solver.setDeflationSpace(list(modes.eigenvectors))
-    start = pencil.stiffness.createVecRight()
-    start.array[:] = np.random.default_rng([_SECOND_START, start.comm.rank]).standard_normal(start.local_size)
-    solver.setInitialSpace([start])
-    _, (inverse,) = _inverses(solver, 1, tolerance)
-    return float(1.0 / inverse) if inverse > 0.0 else np.inf
+    @cache
+    def shaped(first: int) -> CompletedModes:
+        some = slice(first, first + _AT_ONCE)
+        return dense.completed(eigenvalues[some], vectors[:, some])
+
+    def completed(number: int) -> Mode:
+        place = number % _AT_ONCE
+        found = shaped(number - place)
+        displacement, potential = pencil.coupling.createVecs()
+        displacement.array[:] = found.displacements[:, place]
+        potential.array[:] = found.potentials[:, place]
+        return Mode(
+            eigenvalue=float(eigenvalues[number]),
+            displacement=displacement,
+            potential=potential,
+            residual=float(found.residuals[place]),
+            body_amplitudes=found.displacements[: pencil.body_size, place],
+            energy=found.energies[:, place],
+        )
+
+    return ModeSet(
+        eigenvalues=eigenvalues,
+        elastic_amplitudes=amplitudes,
+        modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
+        completed=completed,
+        zero_modes=pencil.zero_mode_count,
+        converged=count,
+        iterations=iterations,
+        solves=pencil.size,
+    )
+
+
+def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
+    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts."""
+    from slepc4py import SLEPc
+
+    matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
+    solver = SLEPc.EPS().create(PETSc.COMM_SELF)
+    solver.setOperators(matrix)
+    solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
+    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setTolerances(tolerance, 200)
+    solver.setDimensions(count, min(2 * count + 12, len(operator)))
+    _, inverses = converged_inverses(solver, count, tolerance)
+    order = np.argsort(-inverses)
+    vector = matrix.createVecRight()
+    columns = []
+    for number in order:
+        solver.getEigenvector(int(number), vector)
+        columns.append(vector.array_r.copy())
+    return inverses[order], np.array(columns).T, solver.getIterationNumber()
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
@@ -210,11 +267,13 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     count = kinetics.negative
     if count == 0:
         return ()
-    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    from slepc4py import SLEPc
+
+    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
     # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not separate it from the
     # rest.
     solver.setDimensions(count, min(count + _GROWING_VECTORS, pencil.size))
-    _, inverses = _inverses(solver, count, tolerance)
+    _, inverses = converged_inverses(solver, count, tolerance)
     displacement, force = pencil.stiffness.createVecs()
     modes = []
     for number in np.argsort(-inverses):
@@ -226,7 +285,7 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     return tuple(modes)
 
 
-def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
+def converged_inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
     """Solve; return how many eigenpairs converged, and 1/λ of the first ones."""
     with interrupts_deferred():
         solver.solve()
@@ -238,7 +297,7 @@ def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.
     return converged, np.array([solver.getEigenvalue(number).real for number in range(count)])
 
 
-def _krylov_schur(
+def krylov_schur(
     pencil: CoupledPencil,
     kinetics: CondensedKinetics,
     count: int,
@@ -246,13 +305,13 @@ def _krylov_schur(
     which: SLEPc.EPS.Which,
     products: Products = as_made,
 ) -> SLEPc.EPS:
+    """Return a solver of M_c ζ = μ K ζ that was not started (collective)."""
+    from slepc4py import SLEPc
+
     stable = len(pencil.unstable) == 0
-    if stable and pencil.answer is not None:
-        operator = PETSc.Mat().createDense(pencil.stiffness.getSizes(), array=kinetics.matrix(), comm=PETSc.COMM_SELF)
-    else:
-        context = products(kinetics if stable else _Turned(kinetics))
-        operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
-        operator.setUp()
+    context = products(kinetics if stable else _Turned(kinetics))
+    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
+    operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)
     solver.setOperators(operator, kinetics.definite_stiffness)
     solver.setProblemType(SLEPc.EPS.ProblemType.GHEP if stable else SLEPc.EPS.ProblemType.PGNHEP)
@@ -326,84 +385,3 @@ def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.
     stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
     surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
     return np.array([*bodies, *surfaces]) / total
-
-
-def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
-    """Number of modes with λ < ``eigenvalue``, from the inertia of one factorization.
-
-    The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
-    included, and one more where the constant of ψ multiplies the volume constraint. It is independent of the iterative
-    solution.
-
-    Args:
-        pencil: the coupled problem.
-        eigenvalue: σ > 0, not itself an eigenvalue.
-
-    Returns:
-        The count, without zero modes; modes that grow have λ < 0 and count (collective).
-    """
-    if pencil.answer is not None:
-        return _dense_count(pencil, pencil.answer.added_mass, eigenvalue)
-    block = pencil.stiffness.copy()
-    block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-    rows = _unconstrained(pencil)
-    # Copies are needed: PETSc returns the matrix itself where all of it is requested.
-    laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
-    weights = laplace.createVecLeft()
-    weights.array[:] = eigenvalue * _densities(pencil)[rows.getIndices() - pencil.laplace.getOwnershipRange()[0]]
-    laplace.diagonalScale(L=weights)
-    columns = PETSc.IS().createStride(
-        pencil.stiffness.getLocalSize()[0],
-        first=pencil.stiffness.getOwnershipRange()[0],
-        step=1,
-        comm=pencil.laplace.comm,
-    )
-    coupling = pencil.momentum.createSubMatrix(rows, columns).copy()
-    coupling.scale(-eigenvalue)
-    transpose = coupling.transpose(PETSc.Mat())
-    whole = PETSc.Mat().createNest([[block, transpose], [coupling, laplace]], comm=block.comm).convert("aij")
-    whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-    solver = PETSc.KSP().create(whole.comm)
-    solver.setOperators(whole)
-    factored = configure_indefinite(solver)
-    factored.setMumpsIcntl(24, 1)  # a null pivot would be reported, not divided by
-    factored.setMumpsIcntl(13, 1)  # without ScaLAPACK for the last block, which does not give the signs of its pivots
-    solver.setUp()
-    negative, zero, _ = factored.getInertia()
-    if zero:
-        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
-
-
-def _dense_count(pencil: CoupledPencil, added_mass: np.ndarray, eigenvalue: float) -> int:
-    """As `count_below`, from the factorization LDLᵀ of K − σ(M + M_a) bordered by the volume constraints."""
-    volumes = np.array([constraint.volume.array_r for constraint in pencil.constraints]).reshape(-1, pencil.size)
-    stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + added_mass)
-    # Sylvester's law: scaled so that stiff shapes and small elements weigh alike.
-    scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
-    block = scale[:, None] * (stiffness - inertia) * scale
-    volumes = volumes * scale
-    volumes /= np.linalg.norm(volumes, axis=1, keepdims=True)
-    corner = np.zeros((len(volumes), len(volumes)))
-    whole = np.block([[0.5 * (block + block.T), volumes.T], [volumes, corner]])
-    # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.
-    factor, rows, _ = lapack.dsytrf(whole, lower=1)
-    pivots = np.diag(factor)[rows > 0]
-    if np.abs(pivots).min(initial=np.inf) <= np.finfo(float).eps:
-        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    negative = np.count_nonzero(pivots < 0.0) + np.count_nonzero(rows < 0) // 2
-    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
-
-
-def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
-    """Unknowns of ψ off surfaces with ψ = 0, without one of each layer whose constant is arbitrary."""
-    first, last = pencil.laplace.getOwnershipRange()
-    fixed = np.union1d(pencil.liquid.zero_dofs(), pencil.free_constants)
-    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), fixed)
-    return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
-
-
-def _densities(pencil: CoupledPencil) -> np.ndarray:
-    """ρ at each owned unknown of ψ."""
-    densities: np.ndarray = np.array(pencil.liquid.densities)[pencil.liquid.owned_layer_of]
-    return densities

@@ -15,8 +15,8 @@ from typing import Generic, TypeVar
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.linalg import block_diag
 
+from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.liquid_operator import LiquidOperator, LiquidUnknowns, first_dof
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -42,19 +42,6 @@ class VolumeConstraint:
     layer: int
     density: float
     volume: PETSc.Vec
-
-
-@dataclass(frozen=True, kw_only=True)
-class LiquidAnswer:
-    """The answer of the liquid to each surface unknown, on one process.
-
-    Attributes:
-        potentials: A⁺C, shape (N, n).
-        added_mass: M_a = (ρC)ᵀA⁺C, shape (n, n).
-    """
-
-    potentials: np.ndarray
-    added_mass: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,7 +179,7 @@ def coupled_pencil(
     if body_coupling is not None:
         blocks.append(body_coupling)
         stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
-        mass_blocks.append(_on_first(block_diag(*(body.mass for body in bodies)), laplace.comm))
+        mass_blocks.append(_on_first(_masses(bodies), laplace.comm))
     for surface in surface_blocks:
         blocks.append(surface.coupling)
         stiffness_blocks.append(surface.stiffness)
@@ -226,7 +213,7 @@ def with_bodies(pencil: CoupledPencil, bodies: tuple[Body, ...]) -> CoupledPenci
     stiffness.setDiagonal(diagonal)
     stiffness.assemble()
     surfaces = pencil.mass.getLocalSize()[0] - (pencil.body_size if diagonal.comm.rank == 0 else 0)
-    blocks = [_on_first(block_diag(*(body.mass for body in bodies)), diagonal.comm)]
+    blocks = [_on_first(_masses(bodies), diagonal.comm)]
     if pencil.surfaces:
         blocks.append(_zeros(((surfaces, PETSc.DETERMINE), (surfaces, PETSc.DETERMINE)), diagonal.comm))
     return replace(pencil, bodies=bodies, stiffness=stiffness, mass=_joined(_block_diagonal(blocks)))
@@ -299,6 +286,15 @@ def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint], largest: flo
     for part, one in zip(parts, constraints, strict=True):
         rest.axpy(-part, one.volume)
     return bool(rest.norm() > _SAME_VOLUME * size)
+
+
+def _masses(bodies: tuple[Body, ...]) -> np.ndarray:
+    """Block-diagonal matrix of the masses of bodies."""
+    stops = np.cumsum([0, *(body.size for body in bodies)])
+    masses = np.zeros((stops[-1], stops[-1]))
+    for body, first, last in zip(bodies, stops, stops[1:], strict=False):
+        masses[first:last, first:last] = body.mass
+    return masses
 
 
 def _diagonal(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:

@@ -39,6 +39,8 @@ _UNEVEN = 5.0
 _ANYWHERE = {dim: np.zeros((1, dim)) for dim in (1, 2, 3)}
 # Slowest decay that a few degrees can tell from none: that of r^{1/2} in the cells at its tip at degree 10.
 _SLOWEST_DECAY = 0.75
+# Curved cells are treated so many at once; of more potentials than these the coefficients of all functions come first.
+_AT_ONCE, _MANY = 64, 10
 
 
 def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
@@ -121,16 +123,27 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
     # Points of the cell first: one product of matrices for each of them.
     scaled = np.sqrt(np.abs(np.linalg.det(jacobian)))[..., None, None] * np.linalg.inv(jacobian)
     polynomials, sizes = _polynomials(element.cell_type, liquid.degree - 1, points)
-    weighted = polynomials * weights
+    lowest = sizes[liquid.degree - 4]
+    weighted = (polynomials * weights)[lowest:]
 
     def energies(values: np.ndarray) -> list[np.ndarray]:
         squares = np.empty((*values.shape[:2], len(weighted)))
-        for number, one in enumerate(values):
-            reference = np.einsum("dqn,cn->cqd", slopes, one, optimize=True)
-            field = np.einsum("cqde,cqd->cqe", scaled, reference, optimize=True)
-            squares[number] = np.square(np.einsum("jq,cqe->cje", weighted, field, optimize=True)).sum(axis=2)
+        for first in range(0, values.shape[1], _AT_ONCE):
+            some = slice(first, first + _AT_ONCE)
+            own, turned = values[:, some].transpose(1, 2, 0), scaled[some]
+            cells, count = len(own), turned.shape[1]
+            if len(values) > _MANY:
+                fields = np.einsum("cqde,dqn->cqen", turned, slopes)
+                table = weighted @ fields.reshape(cells, count, -1)
+                found = table.reshape(cells, -1, own.shape[1]) @ own
+            else:
+                reference = slopes.reshape(-1, slopes.shape[2]) @ own
+                fields = np.einsum("cqde,cdqm->cqem", turned, reference.reshape(cells, -1, count, len(values)))
+                found = weighted @ fields.reshape(cells, count, -1)
+            coefficients = found.reshape(cells, len(weighted), -1, len(values))
+            squares[:, some] = np.square(coefficients).sum(axis=2).transpose(2, 0, 1)
         degrees = range(liquid.degree - 1, liquid.degree - 5, -1)
-        return [squares[:, :, sizes[k] : sizes[k + 1]].sum(axis=2) for k in degrees]
+        return [squares[:, :, sizes[k] - lowest : sizes[k + 1] - lowest].sum(axis=2) for k in degrees]
 
     return energies
 

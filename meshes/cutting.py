@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.edges import EDGE_CORNERS, Edges
 
@@ -27,6 +25,10 @@ def cut_open(
     Returns:
         The cells with their new nodes, and for each node, new ones last, the node from which it is copied.
     """
+    # Slow to import, so only where there is something to cut.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     # Of every corner of every cell: the two edges there link it to the same node's corners of the cells beyond.
     corner = np.arange(cells.size).reshape(cells.shape)
     sides = np.repeat(edges.places[:, :, None], 2, axis=2)

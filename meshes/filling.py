@@ -1,4 +1,4 @@
-"""Triangulation by gmsh of the regions of a domain outside the rings, between straight lines."""
+"""Triangulation by gmsh of the regions of a domain outside the rings, between the edges of its boundary."""
 
 from __future__ import annotations
 
@@ -21,19 +21,17 @@ Key = int | tuple[int, int]
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """A polyline between two regions, or on the boundary.
+    """A polyline between two regions, or on the boundary; each edge is one of the mesh.
 
     Attributes:
         key: lines of the same key are the same, perhaps passed the other way.
         points: shape (n, 2).
         forward: whether the region's boundary passes the points in their order.
-        divided: whether gmsh may put nodes between two points; else each edge is one element.
     """
 
     key: Key
     points: NDArray[np.float64]
     forward: bool
-    divided: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +69,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
         for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
             gmsh.option.setNumber(f"Mesh.{option}", 0)
         gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
-        gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
+        gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y) if dim else lc)
         with interrupts_deferred():
             gmsh.model.mesh.generate(2)
         return drawing.filling(surfaces)
@@ -90,6 +88,8 @@ def gmsh_model() -> Iterator[None]:
     gmsh.model.add("tank")
     try:
         yield
+    except MeshError:
+        raise
     except Exception as error:  # gmsh raises bare Exception
         # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()
@@ -104,10 +104,13 @@ class _Drawing:
     """Points and lines in gmsh, each created once."""
 
     def __init__(self, points: Iterable[NDArray[np.float64]]) -> None:
-        self._points: dict[Point, int] = {}
+        # Nodes are numbered as the points are, before all others.
+        self._nodes: dict[Point, int] = {}
         for x, y in as_points(np.vstack(list(points))):
-            if (x, y) not in self._points:
-                self._points[x, y] = int(gmsh.model.geo.addPoint(x, y, 0.0))
+            if (x, y) not in self._nodes:
+                self._nodes[x, y] = len(self._nodes)
+                gmsh.model.geo.addPoint(x, y, 0.0, tag=len(self._nodes))
+        self._chains: dict[Key, NDArray[np.int64]] = {}
         # Tags of each line from its first to its last point; negative for reversed lines.
         self._lines: dict[Key, list[int]] = {}
 
@@ -121,13 +124,12 @@ class _Drawing:
 
     def _line(self, line: Line) -> list[int]:
         if line.key not in self._lines:
+            chain = self._chains[line.key] = np.array([self._nodes[point] for point in as_points(line.points)])
             # gmsh is given them as the first loop passes them.
             way = 1 if line.forward else -1
-            ends = [self._points[point] for point in as_points(line.points)][::way]
-            lines = [int(gmsh.model.geo.addLine(a, b)) for a, b in pairwise(ends)]
-            if not line.divided:
-                for one in lines:
-                    gmsh.model.geo.mesh.setTransfiniteCurve(one, 2)
+            lines = [int(gmsh.model.geo.addLine(a, b)) for a, b in pairwise((chain[::way] + 1).tolist())]
+            for one in lines:
+                gmsh.model.geo.mesh.setTransfiniteCurve(one, 2)
             self._lines[line.key] = [way * one for one in lines[::way]]
         return self._lines[line.key]
 
@@ -136,19 +138,9 @@ class _Drawing:
         tags, coordinates, _ = gmsh.model.mesh.getNodes()
         order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
         order[tags.astype(np.int64)] = np.arange(len(tags))
-        points = coordinates.reshape(-1, 3)[:, :2].copy()
         cells = []
         for surface in surfaces:
             _, nodes = gmsh.model.mesh.getElementsByType(2, surface)
             cells.append(order[nodes.astype(np.int64)].reshape(-1, 3))
-        chains = {}
-        for key, lines in self._lines.items():
-            nodes = []
-            for line in lines:
-                _, ends = gmsh.model.mesh.getElementsByType(1, abs(line))
-                edges = order[ends.astype(np.int64)].reshape(-1, 2)
-                nodes.append(edges if line > 0 else edges[::-1, ::-1])
-            edges = np.vstack(nodes)
-            chains[key] = np.append(edges[:, 0], edges[-1, 1])
-        ends = {place: int(order[int(gmsh.model.mesh.getNodes(0, tag)[0][0])]) for place, tag in self._points.items()}
-        return Filling(points=points, cells=cells, chains=chains, ends=ends)
+        points = coordinates.reshape(-1, 3)[:, :2].copy()
+        return Filling(points=points, cells=cells, chains=self._chains, ends=self._nodes)

@@ -17,6 +17,7 @@ from hydroelastic.meshes.curve_nodes import (
     element_sources,
     outermost_ring,
     ring_ends,
+    straight_elements,
 )
 from hydroelastic.meshes.curved_cells import CurvedEdges
 from hydroelastic.meshes.filling import Line
@@ -48,18 +49,17 @@ class Layout:
         rings: where rings meet curves, by the curve's index and whether they are at its start.
         wedges: rings of the regions, by the region's index and the place in its loop of the curve that comes to
             the corner.
-        elements: of each curved piece, the parameters of the elements' ends between the rings; ``None`` if straight.
+        elements: of each curve, the parameters of the elements' ends between the rings.
     """
 
     outline: Outline
     rings: dict[tuple[int, bool], RingEnds]
     wedges: dict[tuple[int, int], Wedge]
-    elements: list[NDArray[np.float64] | None]
+    elements: list[NDArray[np.float64]]
 
     def middle(self, number: int) -> NDArray[np.float64]:
-        """Points of a curve from ring to ring: those of its elements, or the ends of a straight line, shape (n, 2)."""
-        curve, elements = self.outline.curves[number], self.elements[number]
-        points = curve.at(np.array([0.0, 1.0]) if elements is None else elements)
+        """Ends of a curve's elements from ring to ring, shape (n, 2)."""
+        points = self.outline.curves[number].at(self.elements[number])
         for at_start, place in ((True, 0), (False, -1)):
             if (number, at_start) in self.rings:
                 points[place] = self.rings[number, at_start].points[-1]
@@ -76,13 +76,12 @@ class Layout:
 
     def curved_edges(self, number: int) -> CurvedEdges | None:
         """All elements of a curve, those between rings too; ``None`` for a straight one."""
-        elements = self.elements[number]
-        if elements is None:
+        if self.outline.curves[number].path is None:
             return None
         before, after = self.within_rings(number, True), self.within_rings(number, False)
         return CurvedEdges(
             curve=self.outline.curves[number],
-            parameters=np.concatenate([before[0], elements, after[0]]),
+            parameters=np.concatenate([before[0], self.elements[number], after[0]]),
             points=np.vstack([before[1], self.middle(number), after[1]]),
         )
 
@@ -94,9 +93,10 @@ class Layout:
         """
         names, chains = [], []
         for line in {line.key: line for loop in self.loops() for line in loop}.values():
-            curve = self.outline.curves[line.key].name if isinstance(line.key, int) else ""
-            chains.append(line.points)
-            names += [curve or "an inner line"] * (len(line.points) - 1)
+            curve = self.outline.curves[line.key] if isinstance(line.key, int) else None
+            is_straight = curve is not None and curve.path is None
+            chains.append(line.points[:: len(line.points) - 1] if is_straight else line.points)
+            names += [(curve and curve.name) or "an inner line"] * (len(chains[-1]) - 1)
         found = crossing_pair(np.vstack([chain[:-1] for chain in chains]), np.vstack([chain[1:] for chain in chains]))
         if found is not None:
             first, second = sorted(names[place] for place in found)
@@ -117,9 +117,8 @@ class Layout:
             for place, (number, forward) in reversed(list(enumerate(region.loop))):
                 if (index, place) in self.wedges:
                     outermost = self.wedges[index, place].nodes[-1]
-                    lines.append(Line(key=(index, place), points=outermost, forward=False, divided=False))
-                straight = self.elements[number] is None
-                lines.append(Line(key=number, points=self.middle(number), forward=not forward, divided=straight))
+                    lines.append(Line(key=(index, place), points=outermost, forward=False))
+                lines.append(Line(key=number, points=self.middle(number), forward=not forward))
             yield lines
 
 
@@ -162,14 +161,26 @@ def lay_out(
     curved = [number for number, curve in enumerate(outline.curves) if curve.path is not None]
 
     def field(bends: list[Discs]) -> SizeField:
-        return SizeField(bulk_size=bulk_size, growth=growth, straight=sized, rings=outermost, bends=Discs.joined(bends))
+        return SizeField(bulk_size=bulk_size, growth=growth, straight=sized, rings=outermost, bends=bends)
 
     wanted = field([bend_sources(outline, number, spans[number], largest_turn) for number in curved])
-    elements: list[NDArray[np.float64] | None] = [None] * len(outline.curves)
-    for number in curved:
-        elements[number] = element_parameters(outline.curves[number], spans[number], wanted, largest_turn)
-    layout = Layout(outline=outline, rings=rings, wedges=_wedges(outline, radii, rings), elements=elements)
-    return layout, field([element_sources(layout.middle(number)) for number in curved])
+    elements = {
+        number: element_parameters(outline.curves[number], spans[number], wanted, largest_turn) for number in curved
+    }
+    size = field([element_sources(outline.curves[number].at(elements[number])) for number in curved])
+    straight = [number for number in range(len(outline.curves)) if number not in elements]
+    ends = np.array([outline.curves[number].at(np.array(spans[number])) for number in straight]).reshape(-1, 2, 2)
+    for number, parts in zip(straight, straight_elements(ends[:, 0], ends[:, 1], size), strict=True):
+        first, last = spans[number]
+        elements[number] = first + (last - first) * parts
+        elements[number][-1] = last
+    layout = Layout(
+        outline=outline,
+        rings=rings,
+        wedges=_wedges(outline, radii, rings),
+        elements=[elements[number] for number in range(len(outline.curves))],
+    )
+    return layout, size
 
 
 def _wedges(

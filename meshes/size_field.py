@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from math import hypot
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.nearest import FEW, Source, Sources
-from hydroelastic.meshes.outline import Curve, Point, as_points
-
-# Number of discs evaluated at once: NumPy takes about as long for one.
-_TOGETHER = 64
+from hydroelastic.meshes.nearest import Sources
+from hydroelastic.meshes.outline import Curve, Point
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,21 +25,6 @@ class Discs:
     radii: NDArray[np.float64]
     sizes: NDArray[np.float64]
 
-    @staticmethod
-    def joined(parts: list[Discs]) -> Discs:
-        """All discs of several sets."""
-        return Discs(
-            centres=np.vstack([np.zeros((0, 2)), *(part.centres for part in parts)]),
-            radii=np.concatenate([np.zeros(0), *(part.radii for part in parts)]),
-            sizes=np.concatenate([np.zeros(0), *(part.sizes for part in parts)]),
-        )
-
-    def parts(self, number: int) -> Iterator[Discs]:
-        """Sets of a number of discs, one after the other."""
-        for first in range(0, len(self.sizes), number):
-            some = slice(first, first + number)
-            yield Discs(centres=self.centres[some], radii=self.radii[some], sizes=self.sizes[some])
-
 
 class SizeField:
     """h(x) = min(bulk size, h_i + growth · max(|x − source i| − r_i, 0)) over all sources i.
@@ -54,7 +34,13 @@ class SizeField:
     """
 
     def __init__(
-        self, *, bulk_size: float, growth: float, straight: list[Curve], rings: list[tuple[Point, float]], bends: Discs
+        self,
+        *,
+        bulk_size: float,
+        growth: float,
+        straight: list[Curve],
+        rings: list[tuple[Point, float]],
+        bends: list[Discs],
     ) -> None:
         """Collect the sources.
 
@@ -66,65 +52,26 @@ class SizeField:
             bends: pieces of curved curves.
         """
         self._bulk_size = bulk_size
-        sources = [_straight_source(curve, growth) for curve in straight]
-        sources += [_ring_source(centre, radius, growth) for centre, radius in rings]
-        sources += [_bent_source(part, growth) for part in bends.parts(_TOGETHER)]
-        self._sources = Sources(sources=sources, growth=growth)
-        # A few are evaluated faster than searched.
-        self._few = [source.value for source in sources] if len(sources) <= FEW else None
+        corners = np.array([centre for centre, _ in rings]).reshape(-1, 2)
+        outermost = np.array([radius for _, radius in rings])
+        discs = [Discs(centres=corners, radii=outermost, sizes=outermost), *bends]
+        centres = np.concatenate([_complex(part.centres) for part in discs])
+        self._sources = Sources(
+            starts=np.concatenate([_complex(np.array([curve.start for curve in straight]).reshape(-1, 2)), centres]),
+            ends=np.concatenate([_complex(np.array([curve.end for curve in straight]).reshape(-1, 2)), centres]),
+            radii=np.concatenate([np.zeros(len(straight)), *(part.radii for part in discs)]),
+            sizes=np.concatenate([[curve.size for curve in straight], *(part.sizes for part in discs)]),
+            growth=growth,
+        )
 
     def __call__(self, x: float, y: float) -> float:
         """Element size at a point."""
-        if self._few is None:
-            return self._sources.least(x, y, self._bulk_size)
-        found = self._bulk_size
-        for value in self._few:
-            size = value(x, y)
-            if size < found:
-                found = size
-        return found
+        return float(self._sources.least(np.array([complex(x, y)]), self._bulk_size)[0])
 
     def along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Element size at points of shape (n, 2)."""
-        return np.array([self(x, y) for x, y in as_points(points)])
+        return self._sources.least(_complex(points), self._bulk_size)
 
 
-def _straight_source(curve: Curve, growth: float) -> Source:
-    """A straight curve with a size, in coordinates along it and across."""
-    (x, y), (end_x, end_y), size_there = curve.start, curve.end, curve.size
-    length = hypot(end_x - x, end_y - y)
-    along_x, along_y = (end_x - x) / length, (end_y - y) / length
-    first = x * along_x + y * along_y
-    last = end_x * along_x + end_y * along_y
-    offset = y * along_x - x * along_y
-
-    def size_at(x: float, y: float) -> float:
-        along = x * along_x + y * along_y
-        across = y * along_x - x * along_y - offset
-        return size_there + growth * hypot(max(first - along, 0.0, along - last), across)
-
-    box = (min(x, end_x), max(x, end_x), min(y, end_y), max(y, end_y))
-    return Source(box=box, floor=size_there, value=size_at)
-
-
-def _ring_source(centre: Point, radius: float, growth: float) -> Source:
-    x_centre, y_centre = centre
-
-    def size_at(x: float, y: float) -> float:
-        return radius + growth * max(hypot(x - x_centre, y - y_centre) - radius, 0.0)
-
-    box = (x_centre - radius, x_centre + radius, y_centre - radius, y_centre + radius)
-    return Source(box=box, floor=radius, value=size_at)
-
-
-def _bent_source(discs: Discs, growth: float) -> Source:
-    """A set of discs evaluated at once."""
-    # gmsh evaluates thousands of points one by one: complex numbers are fastest.
-    centres = discs.centres @ [1.0, 1.0j]
-    sizes, offsets = discs.sizes, discs.sizes - growth * discs.radii
-
-    def size_at(x: float, y: float) -> float:
-        return float(np.maximum(sizes, offsets + growth * np.abs(centres - complex(x, y))).min())
-
-    (left, low), (right, high) = discs.centres.min(axis=0), discs.centres.max(axis=0)
-    return Source(box=(left, right, low, high), floor=float(offsets.min()), value=size_at)
+def _complex(points: NDArray[np.float64]) -> NDArray[np.complex128]:
+    return points[:, 0] + 1j * points[:, 1]

@@ -55,6 +55,8 @@ class Surface:
 def surface_of(face: int) -> Surface | None:
     """Return the surface of a face of gmsh's current model; ``None`` if it has no closed form here."""
     kind = gmsh.model.getType(2, face)
+    if kind not in ("Plane", "Sphere", "Cylinder", "Cone"):
+        return None
     ranges = np.transpose(gmsh.model.getParametrizationBounds(2, face))
     # Off the ends, where a cone has no normal.
     inside = (np.arange(_POINTS) + 0.5) / _POINTS
@@ -74,15 +76,13 @@ def surface_of(face: int) -> Surface | None:
         unknowns = np.column_stack([np.tile(across, (len(points), 1)), normals.ravel()])
         *middle, radius = np.linalg.lstsq(unknowns, (points @ across).ravel(), rcond=None)[0]
         return Surface(point=np.array(middle), axis=axis, radius=abs(radius))
-    if kind == "Cone":
-        # n·a is the same everywhere, and all tangential planes meet in the tip.
-        axis = np.linalg.lstsq(normals, np.ones(len(normals)), rcond=None)[0]
-        axis /= np.linalg.norm(axis)
-        tip = np.linalg.lstsq(normals, (normals * points).sum(axis=1), rcond=None)[0]
-        axis *= np.sign((points - tip).mean(axis=0) @ axis)
-        sine = float(abs(normals @ axis).mean())
-        return Surface(point=tip, axis=axis, radius=0.0, slope=(np.sqrt(1.0 - sine**2), sine))
-    return None
+    # Of a cone n·a is the same everywhere, and all tangential planes meet in the tip.
+    axis = np.linalg.lstsq(normals, np.ones(len(normals)), rcond=None)[0]
+    axis /= np.linalg.norm(axis)
+    tip = np.linalg.lstsq(normals, (normals * points).sum(axis=1), rcond=None)[0]
+    axis *= np.sign((points - tip).mean(axis=0) @ axis)
+    sine = float(abs(normals @ axis).mean())
+    return Surface(point=tip, axis=axis, radius=0.0, slope=(np.sqrt(1.0 - sine**2), sine))
 
 
 def circle_of(curve: int) -> Surface | None:

@@ -43,15 +43,24 @@ class VolumeMesh:
     curved: bool = False
 
 
-def read_gmsh(degree: int, faces: dict[int, str]) -> NodedMesh:
-    """The mesh of the current model, with nodes in the order of dolfinx."""
+def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None = None) -> NodedMesh:
+    """The mesh of the current model, with nodes in the order of dolfinx.
+
+    Args:
+        degree: of its cells.
+        faces: names of those that get one.
+        layers: name of the liquid of each volume; by default that of a single one.
+    """
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     order[tags.astype(np.int64)] = np.arange(len(tags))
     kind = gmsh.model.mesh.getElementType(_TETRAHEDRON, degree)
-    _, nodes = gmsh.model.mesh.getElementsByType(kind)
+    named = layers or {-1: LIQUID}
+    parts = [gmsh.model.mesh.getElementsByType(kind, tag)[1].astype(np.int64) for tag in named]
     places = np.array(gmsh.model.mesh.getElementProperties(kind)[4]).reshape(-1, 3)
-    cells = order[nodes.astype(np.int64)].reshape(-1, len(places))
+    cells = order[np.concatenate(parts)].reshape(-1, len(places))
+    layer_names = {name: number for number, name in enumerate(dict.fromkeys(named.values()), 1)}
+    layer_tags = [layer_names[name] for name in named.values()]
     even, warped = (
         basix.create_element(basix.ElementFamily.P, basix.CellType.tetrahedron, degree, variant)
         for variant in (basix.LagrangeVariant.equispaced, basix.LagrangeVariant.gll_warped)
@@ -78,10 +87,10 @@ def read_gmsh(degree: int, faces: dict[int, str]) -> NodedMesh:
             degree=degree,
             points=points,
             cells=cells,
-            cell_tags=np.ones(len(cells), np.int32),
+            cell_tags=np.repeat(layer_tags, [len(part) // len(places) for part in parts]).astype(np.int32),
             facets=np.concatenate(facets),
             facet_tags=np.concatenate(marks),
-            cell_names={LIQUID: 1},
+            cell_names=layer_names,
             facet_names=names,
         )
     )

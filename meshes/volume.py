@@ -8,26 +8,38 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import atan, hypot, pi
+from math import pi
 
 import gmsh
 import numpy as np
 from scipy.interpolate import RBFInterpolator
 
+from hydroelastic.meshes.cut_volume import cut_volume, with_regions
+from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls
 from hydroelastic.meshes.filling import gmsh_model
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
-from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file, solid_of_file
+from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
+from hydroelastic.meshes.volume_solids import (
+    baffle_faces,
+    below,
+    box_around,
+    face,
+    faces_of,
+    float_solid,
+    kept,
+    liquid_solid,
+    plan_middle,
+)
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name, body_number
-from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan
-from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
-from hydroelastic.physics.solid_floats import SolidFloat
+from hydroelastic.physics.level_tank import Cylinder, FilePlan
+from hydroelastic.physics.plate import Disc, Rectangle
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
@@ -37,14 +49,14 @@ MIRRORS = ("mirror_x", "mirror_y")
 _GROWTH = 0.6
 # Points of a curve from which distances are measured.
 _SAMPLES = 200
-# A face at this height, in units of the tank, is of the still surface.
 # Smallest part of the bulk size that the curvature of a wall asks for.
 _LEAST_CURVED = 0.2
+# Part of the area of a plate that may lie elsewhere.
 _LEVEL = 1e-7
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
-# Points this close to a float, in units of the tank, are on it.
-_ON_FLOAT = 1e-7
+# The vertical part of the normal of a wall that meets the still surface at right angles is less.
+_UPRIGHT = 0.1
 # By so much boxes around edges are larger than these.
 _BOXES = 1e-6
 
@@ -92,28 +104,14 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         return mesh_of_file(tank.plan)
     bed = depth_over(tank)
     with gmsh_model():
-        occ = gmsh.model.occ
-        solid = _liquid(tank)
-        if tank.floats:
-            solid = occ.cut(solid, [one for float_ in tank.floats for one in _float_solid(float_)])[0]
-        solid = _kept(solid, tank, mirrors)
-        plates = [_face(plate.outline) for plate in tank.plates]
-        plates = [_kept(plate, tank, mirrors) for plate in plates]
-        flat = [one for plate in plates for one in plate]
-        parts = occ.fragment(solid, flat)[1] if flat else []
-        occ.synchronize()
-        if len(gmsh.model.getEntities(3)) != 1:
-            raise MeshError("the bed divides the liquid")
-        (liquid,) = gmsh.model.getEntities(3)
-        owners = _owners(plates, parts[len(solid) :])
-        faces = {tag: _name(tank, tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
-        _require_covered(tank, owners, faces, 2 ** sum(mirror is not None for mirror in mirrors))
-        volume = occ.getMass(*liquid)
-        edges, curved = _singular_edges(tank, faces, mirrors), _is_curved(tank)
+        parts = _parts(tank, mirrors)
+        _require_covered(tank, parts, 2 ** sum(mirror is not None for mirror in mirrors))
+        edges, curved, faces = _singular_edges(tank, parts, mirrors), _is_curved(tank), parts.faces
         surfaces: dict[tuple[str, ...], Surface] = {}
         if sizes.refinements:
             apart = {tag: f"{name}{APART}{tag}" for tag, name in faces.items()}
-            surfaces = _surfaces(apart)
+            # Meshes that are cut open are not refined.
+            surfaces = {} if {BAFFLE, INTERFACE} & set(faces.values()) else _surfaces(apart)
             sizes, faces = (sizes.coarse, apart) if surfaces else (replace(sizes, refinements=0), faces)
         _set_sizes(tank, sizes, edges)
         with interrupts_deferred():
@@ -121,9 +119,13 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             degree = sizes.geometry if curved and not sizes.refinements else 1
             if degree > 1:
                 gmsh.model.mesh.setOrder(degree)
-        mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name})
+        mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name}, parts.layers)
     if sizes.refinements:
-        return VolumeMesh(noded=mesh, volume=volume, surfaces=surfaces, curved=curved)
+        return VolumeMesh(noded=mesh, volume=parts.volume, surfaces=surfaces, curved=curved)
+    cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
+    if cuts:
+        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
+    volume = parts.volume
     if isinstance(tank.bed, SurveyedBed):
         stretched = mesh_integral(mesh, lambda places: np.asarray(bed(places[:, :2]) / tank.depth))
         volume *= stretched / mesh_integral(mesh, lambda places: np.ones(len(places)))
@@ -131,6 +133,77 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
     return VolumeMesh(noded=checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats), volume=volume)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Parts:
+    """The parts of a model of gmsh.
+
+    Attributes:
+        layers: name of the liquid of each volume.
+        faces: name of each face of the liquids, "" of walls.
+        volume: of the liquids.
+    """
+
+    layers: dict[int, str]
+    faces: dict[int, str]
+    volume: float
+
+
+def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
+    """Make the liquids in the current model, cut by planes of symmetry, with faces of plates, baffles and floats."""
+    occ = gmsh.model.occ
+    first = len(tank.plates) + 1
+    floats = {body_name(number): solid for number, solid in enumerate(tank.floats, first)}
+    triangulated = {name: solid for name, solid in floats.items() if solid.hull and solid.hull.is_triangulated}
+    hulls = add_hulls(triangulated)
+    liquid = kept(liquid_solid(tank), tank, mirrors)
+    images = 2 ** sum(mirror is not None for mirror in mirrors)
+    # Of free-form faces OpenCASCADE's masses have three digits.
+    volume = occ.getMass(*liquid[0]) - sum(solid.hydrostatics.volume for solid in tank.floats) / images
+    tools = {body_name(index): kept(face(plate.outline), tank, mirrors) for index, plate in enumerate(tank.plates, 1)}
+    tools |= {name: kept(float_solid(floats[name]), tank, mirrors) for name in floats if name not in hulls}
+    tools[BAFFLE] = [one for baffle in tank.baffles for one in baffle_faces(baffle, tank, liquid)]
+    if tank.interface is not None:
+        tools[LOWER_LIQUID] = below(tank, tank.interface)
+    flat = [one for tool in tools.values() for one in tool]
+    made = occ.fragment(liquid, flat)[1] if flat else [[one] for one in liquid]
+    occ.synchronize()
+    pieces, place = {}, len(liquid)
+    for name, tool in tools.items():
+        pieces[name] = {one for part in made[place : place + len(tool)] for one in part}
+        place += len(tool)
+    bodies = {one for name in floats for one in pieces.get(name, ())}
+    liquids = {one for part in made[: len(liquid)] for one in part} - bodies
+    lower = liquids & pieces.get(LOWER_LIQUID, set())
+    wetted = {name: faces_of(sorted(pieces[name])) for name in floats if name not in hulls}
+    if wetted or lower:
+        others = [one for one in gmsh.model.getEntities(3) if one not in liquids]
+        occ.remove(others, recursive=True)
+        occ.synchronize()
+    if len(liquids) != 1 + bool(lower) and not tank.baffles:
+        raise MeshError("the bed divides the liquid")
+    layers = {tag: (LOWER_LIQUID if (3, tag) in lower else UPPER_LIQUID) if lower else LIQUID for _, tag in liquids}
+    owners = {tag: name for name in tools for dim, tag in pieces[name] if dim == 2}
+    faces = {
+        tag: owners.get(tag) or _name(tag, wetted, mirrors)
+        for _, tag in gmsh.model.getBoundary(sorted(liquids), combined=False, oriented=False)
+    }
+    left = set(gmsh.model.getEntities(2))
+    if any((2, tag) not in left for tag, name in owners.items() if name == BAFFLE):
+        raise MeshError("a baffle meets a float")
+    faces |= {tag: BAFFLE for tag, name in owners.items() if name == BAFFLE}
+    if lower:
+        shared = faces_of(sorted(lower)) & faces_of(sorted(liquids - lower))
+        faces |= {tag: INTERFACE for tag in shared if faces[tag] != BAFFLE}
+    if hulls:
+        above = next(tag for _, tag in liquids - lower)
+        water = [tag for tag, name in faces.items() if name == FREE_SURFACE]
+        joined, still, replaced = join_hulls(above, water, hulls)
+        layers = {joined if tag == above else tag: name for tag, name in layers.items()}
+        del faces[replaced]
+        faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
+    return _Parts(layers=layers, faces=faces, volume=volume)
 
 
 def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:
@@ -169,136 +242,27 @@ def depth_over(tank: VolumeTank) -> Callable[[FloatArray], FloatArray]:
     return lambda places: np.full(len(places), tank.depth)
 
 
-def plan_middle(tank: VolumeTank) -> tuple[float, float]:
-    """Return the middle of the box around the plan."""
-    plan = tank.plan
-    if isinstance(plan, Box):
-        return 0.5 * plan.length, 0.5 * plan.width
-    if isinstance(plan, FilePlan):
-        return plan.middle
-    if isinstance(plan, Polygon):
-        x, y = zip(*plan.points, strict=True)
-        return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))
-    return 0.0, 0.0
-
-
-_Entities = list[tuple[int, int]]
-
-
-def _liquid(tank: VolumeTank) -> _Entities:
-    """The liquid as a solid."""
-    occ, plan = gmsh.model.occ, tank.plan
-    if isinstance(plan, FilePlan):
-        return solid_of_file(plan)
-    reach = 4.0 + tank.depth
-    low = 2.0 * reach if isinstance(tank.bed, SlopingBed) else tank.depth
-    if isinstance(plan, Box):
-        solid = [(3, occ.addBox(0.0, 0.0, -low, plan.length, plan.width, low))]
-    elif isinstance(plan, Cylinder):
-        solid = [(3, occ.addCylinder(0.0, 0.0, -low, 0.0, 0.0, low, plan.radius))]
-        if plan.inner_radius:
-            inner = [(3, occ.addCylinder(0.0, 0.0, -low, 0.0, 0.0, low, plan.inner_radius))]
-            solid = occ.cut(solid, inner)[0]
-    else:
-        face = _face(plan)
-        solid = [one for one in occ.extrude(face, 0.0, 0.0, -low) if one[0] == 3]
-    if isinstance(tank.bed, SlopingBed):
-        (along, across), (x, y) = tank.bed.slope, plan_middle(tank)
-        below = [(3, occ.addBox(-reach, -reach, -3.0 * reach, 2.0 * reach, 2.0 * reach, 3.0 * reach))]
-        steepness = hypot(along, across)
-        if steepness:
-            occ.rotate(below, 0.0, 0.0, 0.0, across / steepness, -along / steepness, 0.0, atan(steepness))
-        occ.translate(below, x, y, -tank.depth)
-        solid = occ.cut(solid, below)[0]
-    return solid
-
-
-def _face(outline: Outline) -> _Entities:
-    """An outline as a face at z = 0."""
-    occ = gmsh.model.occ
-    if isinstance(outline, Rectangle | Strip):
-        if isinstance(outline, Strip):
-            left, low, size = outline.start, 0.0, (outline.length, outline.width)
-        else:
-            size = outline.size
-            left, low = outline.position[0] - 0.5 * size[0], outline.position[1] - 0.5 * size[1]
-        return [(2, occ.addRectangle(left, low, 0.0, *size))]
-    if isinstance(outline, Disc):
-        x, y = outline.position
-        disc = [(2, occ.addDisk(x, y, 0.0, outline.radius, outline.radius))]
-        if outline.inner_radius:
-            hole = [(2, occ.addDisk(x, y, 0.0, outline.inner_radius, outline.inner_radius))]
-            disc = occ.cut(disc, hole)[0]
-        return disc
-    points = [occ.addPoint(x, y, 0.0) for x, y in outline.points]
-    lines = [occ.addLine(one, other) for one, other in zip(points, [*points[1:], points[0]], strict=True)]
-    return [(2, occ.addPlaneSurface([occ.addCurveLoop(lines)]))]
-
-
-def _kept(entities: _Entities, tank: VolumeTank, mirrors: Mirrors) -> _Entities:
-    """The part above the planes of symmetry."""
-    dim, far = entities[0][0], 10.0 + 4.0 * tank.depth
-    for axis, mirror in enumerate(mirrors):
-        if mirror is not None:
-            start = [-far, -far, -far]
-            start[axis] = mirror
-            half = [(3, gmsh.model.occ.addBox(*start, 2.0 * far, 2.0 * far, 2.0 * far))]
-            entities = [one for one in gmsh.model.occ.intersect(entities, half)[0] if one[0] == dim]
-    return entities
-
-
-def _owners(plates: list[_Entities], parts: list[_Entities]) -> dict[int, int]:
-    """Index of the plate of each face that plates were cut into."""
-    indices = [index for index, plate in enumerate(plates) for _ in plate]
-    return {tag: index for index, part in zip(indices, parts, strict=True) for dim, tag in part if dim == 2}
-
-
-def _require_covered(tank: VolumeTank, owners: dict[int, int], faces: dict[int, str], images: int) -> None:
-    for index, plate in enumerate(tank.plates):
-        area = sum(gmsh.model.occ.getMass(2, tag) for tag, own in owners.items() if own == index and tag in faces)
+def _require_covered(tank: VolumeTank, parts: _Parts, images: int) -> None:
+    for number, plate in enumerate(tank.plates, 1):
+        area = sum(gmsh.model.occ.getMass(2, tag) for tag, name in parts.faces.items() if name == body_name(number))
         if images * area < plate.outline.area * (1.0 - _LEVEL):
-            raise MeshError(f"plate {index + 1} does not lie on the still surface of the tank")
+            raise MeshError(f"plate {number} does not lie on the still surface of the tank")
 
 
-def _name(tank: VolumeTank, tag: int, plates: dict[int, int], mirrors: Mirrors) -> str:
-    """Name of a face of the liquid: a plate, a float, the still surface, a plane of symmetry, or "" for a wall."""
-    if tag in plates:
-        return body_name(plates[tag] + 1)
+def _name(tag: int, wetted: dict[str, set[int]], mirrors: Mirrors) -> str:
+    """Name of a face of the liquid: a float, the still surface, a plane of symmetry, or "" for a wall."""
     for axis, level, name in ((2, 0.0, FREE_SURFACE), *zip((0, 1), mirrors, MIRRORS, strict=True)):
         # Walls of the tank are no planes through its middle.
         if level is not None and lies_in_plane(tag, axis, level):
             return name
-    for index, solid in enumerate(tank.floats, len(tank.plates) + 1):
-        if solid.distance(_points_of(tag)).max() < _ON_FLOAT:
-            return body_name(index)
-    return ""
-
-
-def _points_of(face: int) -> FloatArray:
-    """Points of a face: of its middle, and of its edges."""
-    low, high = gmsh.model.getParametrizationBounds(2, face)
-    points = [gmsh.model.getValue(2, face, [0.5 * (a + b) for a, b in zip(low, high, strict=True)])]
-    for _, edge in gmsh.model.getBoundary([(2, face)], oriented=False):
-        (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
-        points.append(gmsh.model.getValue(1, edge, [0.5 * (start + end)]))
-    return np.array(points)
-
-
-def _float_solid(solid: SolidFloat) -> _Entities:
-    """A float as a solid that reaches above the still surface."""
-    occ, (x, y), depth = gmsh.model.occ, solid.position, solid.draught
-    if solid.shape == "sphere":
-        return [(3, occ.addSphere(x, y, 0.5 * solid.size[0] - depth, 0.5 * solid.size[0]))]
-    if solid.shape == "cylinder":
-        return [(3, occ.addCylinder(x, y, -depth, 0.0, 0.0, 2.0 * depth, 0.5 * solid.size[0]))]
-    along, across = solid.size
-    return [(3, occ.addBox(x - 0.5 * along, y - 0.5 * across, -depth, along, across, 2.0 * depth))]
+    return next((name for name, faces in wetted.items() if tag in faces), "")
 
 
 def _is_curved(tank: VolumeTank) -> bool:
     round_plates = any(isinstance(plate.outline, Disc) for plate in tank.plates)
     return (
         isinstance(tank.plan, Cylinder)
+        or any(isinstance(outline, Disc) for outline in tank.columns)
         or any(solid.shape != "box" for solid in tank.floats)
         or round_plates
         or isinstance(tank.bed, SurveyedBed)
@@ -310,22 +274,44 @@ def _kinds() -> set[str]:
     return {gmsh.model.getType(2, tag) for _, tag in gmsh.model.getEntities(2)}
 
 
-def _singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) -> set[int]:
-    """Edges of plates and corners of floats; not those that planes of symmetry make, nor where walls of a float meet
-    the still surface at right angles."""
-    upright = {
-        body_name(number) for number, solid in enumerate(tank.floats, len(tank.plates) + 1) if solid.shape != "sphere"
-    }
-    found = set()
-    for face, name in faces.items():
-        if body_number(name) is None:
+def _singular_edges(tank: VolumeTank, parts: _Parts, mirrors: Mirrors) -> set[int]:
+    """Edges of plates, corners of floats and columns, and tips of baffles; not those that planes of symmetry make, nor
+    where walls of a float meet the still surface at right angles."""
+    found: set[int] = set()
+    beside: set[int] = set()
+    tips: list[int] = []
+    for tag, name in parts.faces.items():
+        edges = [edge for _, edge in gmsh.model.getBoundary([(2, tag)], oriented=False)]
+        if name == BAFFLE:
+            tips += edges
             continue
-        planes = [*enumerate(mirrors), (2, 0.0 if name in upright else None)]
-        for _, edge in gmsh.model.getBoundary([(2, face)], oriented=False):
-            box = np.array(gmsh.model.occ.getBoundingBox(1, edge)).reshape(2, 3)
-            if not any(level is not None and np.abs(box[:, axis] - level).max() < _BOXES for axis, level in planes):
+        beside |= {*edges, *(edge for dim, edge in gmsh.model.mesh.getEmbedded(2, tag) if dim == 1)}
+        number = body_number(name)
+        if number is None:
+            continue
+        for edge in edges:
+            box = box_around((1, edge))
+            level = number > len(tank.plates) and np.abs(box[:, 2]).max() < _BOXES and _is_upright(tag, edge)
+            if not level and not any(
+                mirror is not None and np.abs(box[:, axis] - mirror).max() < _BOXES
+                for axis, mirror in enumerate(mirrors)
+            ):
                 found.add(edge)
+    found |= {edge for edge in tips if tips.count(edge) == 1} - beside
+    corners = [corner for outline in tank.columns if isinstance(outline, Rectangle) for corner in outline.corners]
+    for edge in beside if corners else ():
+        low, high = box_around((1, edge))
+        if any(np.abs([*(low[:2] - corner), *(high[:2] - corner)]).max() < _BOXES for corner in corners):
+            found.add(edge)
     return found
+
+
+def _is_upright(face: int, edge: int) -> bool:
+    """Whether a face meets the still surface at right angles, in the middle of an edge of it."""
+    (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
+    place = gmsh.model.getValue(1, edge, [0.5 * (start + end)])
+    normal = gmsh.model.getNormal(face, gmsh.model.getParametrization(2, face, place))
+    return bool(abs(normal[2]) < _UPRIGHT)
 
 
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:

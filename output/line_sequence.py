@@ -28,11 +28,9 @@ def write_line(file: Path, points: NDArray[np.float64], data: dict[str, NDArray[
         points: m, shape (n, 3).
         data: at the points, by name.
     """
-    import meshio
-
     count = len(points)
     cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
-    write_vtu(file, meshio.Mesh(points, cells, point_data=data))
+    write_vtu(file, points, cells, data)
 
 
 def write_sequence(folder: Path, name: str, frames: Iterable[Frame]) -> None:

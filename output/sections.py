@@ -5,15 +5,13 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
-
-from rich import box
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+from typing import TYPE_CHECKING, TypeAlias
 
 from hydroelastic.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
 from hydroelastic.output.provenance import Summary
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 Row: TypeAlias = tuple[str, ...]
 
@@ -51,6 +49,9 @@ def printed_sections(
         notes: whether to print the notes of the tables.
         width: of the text, in characters.
     """
+    # Who prints nothing does without it.
+    from rich.console import Console
+
     console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False, emoji=False)
     console.print(title_of(summary), markup=False)
     for number, line in enumerate(status_lines(summary)):
@@ -113,6 +114,10 @@ def status_lines(summary: Summary) -> list[str]:
 
 def rich_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Table:
     """Return a table for a terminal."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for column, heading in enumerate(headings):
         leftwards = column == 0 or heading in ("kind", "symmetry", "bound")

@@ -43,7 +43,7 @@ class Dof(str):
     @property
     def kind(self) -> str:
         """The name without a number: "heave", "elastic" …"""
-        return self.motion.split()[0]
+        return self.rpartition(_JOINT)[2].split()[0]
 
     @property
     def is_elastic(self) -> bool:

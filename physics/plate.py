@@ -40,6 +40,14 @@ class Rectangle:
         """The larger of its lengths along x and y, m."""
         return max(self.size)
 
+    @property
+    def corners(self) -> tuple[Point, ...]:
+        """Its corners, around it."""
+        (x, y), (along, across) = self.position, self.size
+        return tuple(
+            (x + 0.5 * one * along, y + 0.5 * other * across) for one, other in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+        )
+
     def scaled(self, length: float) -> Rectangle:
         """Return it in units of a length."""
         return replace(self, position=scaled_point(self.position, length), size=scaled_point(self.size, length))

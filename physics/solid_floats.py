@@ -5,7 +5,8 @@ mass, and m = ρV:
 
     heave ρgA,    roll about x: ρg I_x + ρgV(z_B − z_G),    pitch about y: ρg I_y + ρgV(z_B − z_G)
 
-Surge, sway and yaw have no stiffness.
+Of a hull that is not symmetric, heave is coupled with roll by ρg∫y and with pitch by −ρg∫x, roll with pitch by −ρg∫xy,
+all over the waterplane about the vertical axis through the centre of mass. Surge, sway and yaw have no stiffness.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.plate import Point, scaled_point
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.solids import solid_of_revolution
+from hydroelastic.physics.wetted_hulls import Hydrostatics, WettedHull
 
 RigidMotion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
 RIGID_MOTIONS: tuple[RigidMotion, ...] = get_args(RigidMotion)
@@ -28,24 +30,7 @@ RIGID_MOTIONS: tuple[RigidMotion, ...] = get_args(RigidMotion)
 # Part of ρg I_x below which a stiffness is rounding.
 _ROUNDING = 1e-12
 
-SolidFloatShape: TypeAlias = Literal["cylinder", "sphere", "box"]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Hydrostatics:
-    """What follows from the wetted part of a solid, in powers of m.
-
-    Attributes:
-        volume: V.
-        buoyancy: z_B.
-        waterplane: A.
-        second: I_x and I_y about the middle of the waterplane.
-    """
-
-    volume: float
-    buoyancy: float
-    waterplane: float
-    second: Point
+SolidFloatShape: TypeAlias = Literal["cylinder", "sphere", "box", "revolved", "hull"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,13 +38,15 @@ class SolidFloat:
     """A rigid solid that floats, upright at rest, by Archimedes' principle.
 
     Attributes:
-        shape: an upright cylinder, a sphere, or a box with sides along x and y.
-        size: diameters or sides along x and y, m.
+        shape: an upright cylinder, a sphere, a box with sides along x and y, a revolved outline, or a hull of a file.
+        size: largest extents along x and y of its wetted part, m.
         draught: depth of its lowest point, m.
-        position: x and y of its axis, m.
+        position: x and y of the vertical axis through its centre of mass, m.
         centre_of_gravity: z_G, m.
         gyration: radii of gyration about axes along x, y and z through the centre of mass, m.
         motions: those that are free.
+        outline: corners [r, z] of a revolved outline from the axis back to it, z from the still level, m.
+        hull: the wetted part of a hull of a file.
     """
 
     shape: SolidFloatShape
@@ -69,6 +56,8 @@ class SolidFloat:
     centre_of_gravity: float
     gyration: tuple[float, float, float]
     motions: tuple[RigidMotion, ...]
+    outline: tuple[Point, ...] = ()
+    hull: WettedHull | None = None
 
     def scaled(self, units: Scales) -> SolidFloat:
         """Return it in units of a length."""
@@ -81,31 +70,62 @@ class SolidFloat:
             position=scaled_point(self.position, length),
             centre_of_gravity=self.centre_of_gravity / length,
             gyration=(x / length, y / length, z / length),
+            outline=tuple(scaled_point(point, length) for point in self.outline),
+            hull=None if self.hull is None else self.hull.scaled(length),
         )
+
+    @property
+    def bounds(self) -> tuple[Point, Point]:
+        """Least and largest x, and least and largest y, of its wetted part."""
+        if self.hull is not None:
+            low, high = ((place[0], place[1]) for place in (self.hull.low, self.hull.high))
+            (x, y), (left, front), (right, back) = self.origin, low, high
+            return (x + left, x + right), (y + front, y + back)
+        (x, y), (along, across) = self.position, self.size
+        return (x - 0.5 * along, x + 0.5 * along), (y - 0.5 * across, y + 0.5 * across)
+
+    @property
+    def origin(self) -> Point:
+        """x and y of the origin of its file, or of its axis."""
+        (x, y), (right, back) = self.position, self.hydrostatics.axis
+        return x - right, y - back
 
     @cached_property
     def hydrostatics(self) -> Hydrostatics:
         """Volume, centre of buoyancy and waterplane."""
         (along, across), depth = self.size, self.draught
+        if self.hull is not None:
+            return self.hull.hydrostatics
         if self.shape == "box":
             area = along * across
             second = (along * across**3 / 12.0, across * along**3 / 12.0)
             return Hydrostatics(volume=area * depth, buoyancy=-0.5 * depth, waterplane=area, second=second)
-        solid = solid_of_revolution(self.shape, radius=0.5 * along, draught=depth)
-        wetted, contact = solid.moments(0.0), solid.below(0.0)[-1].end[0]
-        area, moment = solid.waterplane(-contact, contact)
-        buoyancy = wetted.first[1] / wetted.area
-        return Hydrostatics(volume=wetted.area, buoyancy=buoyancy, waterplane=area, second=(moment, moment))
+        assert self.shape != "hull"
+        solid = solid_of_revolution(self.shape, radius=0.5 * along, draught=depth, outline=self.outline)
+        wetted = solid.moments(0.0)
+        chain = solid.below(0.0)
+        area, moment = solid.waterplane(chain[0].start[0], chain[-1].end[0])
+        return Hydrostatics(
+            volume=wetted.area,
+            buoyancy=wetted.first[1] / wetted.area,
+            waterplane=area,
+            second=(moment, moment),
+        )
 
     def stiffness(self) -> FloatArray:
-        """Return the hydrostatic stiffness of its motions over ρg, shape (motions,)."""
+        """Return the hydrostatic stiffness of its motions over ρg, shape (motions, motions)."""
         found = self.hydrostatics
         lever = found.volume * (found.buoyancy - self.centre_of_gravity)
-        values = {"heave": found.waterplane, "roll": found.second[0] + lever, "pitch": found.second[1] + lever}
-        stiffness = np.array([values.get(motion, 0.0) for motion in self.motions])
+        (x, y), (about_x, about_y), product = found.first, found.second, found.product
+        restored = np.array(
+            [[found.waterplane, y, -x], [y, about_x + lever, -product], [-x, -product, about_y + lever]]
+        )
         # That of a sphere about its centre is rounding.
-        negligible = _ROUNDING * max(found.second)
-        return np.where(np.abs(stiffness) < negligible, 0.0, stiffness)
+        restored[1:, 1:][np.abs(restored[1:, 1:]) < _ROUNDING * max(found.second)] = 0.0
+        stiffness = np.zeros((6, 6))
+        stiffness[2:5, 2:5] = restored
+        places = [RIGID_MOTIONS.index(motion) for motion in self.motions]
+        return np.asarray(stiffness[np.ix_(places, places)])
 
     def inertia(self) -> FloatArray:
         """Return mass or moment of inertia of its motions over ρ, shape (motions,)."""
@@ -121,17 +141,3 @@ class SolidFloat:
             return np.broadcast_to(axis[:, None], points.shape)
         centre = np.array([*self.position, self.centre_of_gravity])
         return np.cross(axis, (points - centre[:, None]).T).T
-
-    def distance(self, points: FloatArray) -> FloatArray:
-        """Return the distance of points (n, 3) from its surface, 0 on it, but for a factor of order 1, (n,)."""
-        x, y = (points[:, :2] - np.array(self.position)).T
-        (along, across), z = self.size, points[:, 2]
-        if self.shape == "sphere":
-            radius = 0.5 * along
-            return np.asarray(np.abs(np.sqrt(x**2 + y**2 + (z - radius + self.draught) ** 2) - radius))
-        outside = (
-            np.hypot(x, y) - 0.5 * along
-            if self.shape == "cylinder"
-            else np.maximum(np.abs(x) - 0.5 * along, np.abs(y) - 0.5 * across)
-        )
-        return np.asarray(np.abs(np.maximum(outside, -self.draught - z)))

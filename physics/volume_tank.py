@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from hydroelastic.physics.level_tank import FilePlan, LevelTank
-from hydroelastic.physics.plate import Point
+from hydroelastic.physics.obstacles import Baffle
+from hydroelastic.physics.plate import Disc, Point, Rectangle
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.solid_floats import SolidFloat
 
@@ -46,21 +47,48 @@ Bed: TypeAlias = SlopingBed | SurveyedBed
 
 
 @dataclass(frozen=True, kw_only=True)
+class LowerLiquid:
+    """The lower one of two liquids.
+
+    Attributes:
+        density: ρ, kg/m³, more than that of the upper one.
+        depth: its own, m.
+    """
+
+    density: float
+    depth: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class VolumeTank(LevelTank):
-    """One liquid in a tank whose volume is meshed; in SI units, or in those of `scaled`.
+    """One or two liquids in a tank whose volume is meshed; in SI units, or in those of `scaled`.
+
+    Depth is that of both liquids together, density that of the upper one.
 
     Attributes:
         bed: of an upright tank; ``None`` where it is level, or part of a file.
         floats: solids with draught; as bodies they come after the plates.
+        columns: outlines of columns from the bed to above the still surface.
+        baffles: thin rigid plates in the liquid.
+        lower: the lower liquid of two.
     """
 
     bed: Bed | None = None
     floats: tuple[SolidFloat, ...] = ()
+    columns: tuple[Rectangle | Disc, ...] = ()
+    baffles: tuple[Baffle, ...] = ()
+    lower: LowerLiquid | None = None
 
     @property
     def is_level(self) -> bool:
         """Whether it is an upright tank with a level bed and plates all the same."""
-        return self.bed is None and not self.floats and not isinstance(self.plan, FilePlan)
+        other = self.floats or self.columns or self.baffles or self.lower
+        return self.bed is None and not other and not isinstance(self.plan, FilePlan)
+
+    @property
+    def interface(self) -> float | None:
+        """z of the interface of two liquids."""
+        return None if self.lower is None else self.lower.depth - self.depth
 
     def scaled(self) -> VolumeTank:
         """Return the tank in its own units."""
@@ -71,4 +99,9 @@ class VolumeTank(LevelTank):
             level,
             bed=None if self.bed is None else self.bed.scaled(units.length),
             floats=tuple(solid.scaled(units) for solid in self.floats),
+            columns=tuple(outline.scaled(units.length) for outline in self.columns),
+            baffles=tuple(baffle.scaled(units.length) for baffle in self.baffles),
+            lower=None
+            if self.lower is None
+            else LowerLiquid(density=self.lower.density / self.density, depth=self.lower.depth / units.length),
         )

@@ -39,7 +39,6 @@ from hydroelastic.scenes.command_parts import (
 )
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes
@@ -259,6 +258,8 @@ def study(
     checked = read_scene(scene, overrides)
     folder = folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
+    from hydroelastic.scenes.models.level_tank import LevelTankScene
+
     if isinstance(checked, LevelTankScene):
         from hydroelastic.scenes.study.level_tank import level_study_table, study_level_tank, write_level_study
 

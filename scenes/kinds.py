@@ -8,12 +8,7 @@ from typing import TYPE_CHECKING, Any
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene
-from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import Scene, closed_tank
 
 if TYPE_CHECKING:
@@ -22,7 +17,7 @@ if TYPE_CHECKING:
 
 def runner_of(scene: Scene) -> StagedRun[Any, Any]:
     """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
-    if isinstance(scene, TankScene | SeaScene):
+    if isinstance(scene, TankScene) or scene.kind == "sea":
         if scene.is_open:
             from hydroelastic.scenes.open_water.run import run_open
 
@@ -30,19 +25,21 @@ def runner_of(scene: Scene) -> StagedRun[Any, Any]:
         from hydroelastic.scenes.tank.run import run_tank
 
         return run_tank
-    if isinstance(scene, RoundTankScene):
-        from hydroelastic.scenes.round_tank.run import run_round_tank
+    if scene.kind == "tank":
+        from hydroelastic.scenes.models.round_tank import RoundTankScene
 
-        return run_round_tank
-    if isinstance(scene, LevelTankScene):
+        if isinstance(scene, RoundTankScene):
+            from hydroelastic.scenes.round_tank.run import run_round_tank
+
+            return run_round_tank
         from hydroelastic.scenes.level_tank.run import run_level_tank
 
         return run_level_tank
-    if isinstance(scene, StringScene):
+    if scene.kind == "string":
         from hydroelastic.scenes.string.run import run_string
 
         return run_string
-    if isinstance(scene, ThreadScene):
+    if scene.kind == "thread":
         from hydroelastic.scenes.thread.run import run_thread
 
         return run_thread
@@ -62,15 +59,15 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
         from hydroelastic.scenes.tank.run import compare_tank
 
         return compare_tank
-    if isinstance(scene, LevelTankScene):
+    if scene.kind == "tank":
         from hydroelastic.scenes.level_tank.run import compare_level_tank
 
         return compare_level_tank
-    if isinstance(scene, StringScene):
+    if scene.kind == "string":
         from hydroelastic.scenes.string.compare import compare_string
 
         return compare_string
-    if isinstance(scene, ThreadScene):
+    if scene.kind == "thread":
         from hydroelastic.scenes.thread.compare import compare_thread
 
         return compare_thread
@@ -87,7 +84,7 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
 
 def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
     """Return the function that describes the model of a scene in tables and lines: ``check(scene)``."""
-    if isinstance(scene, TankScene | SeaScene):
+    if isinstance(scene, TankScene) or scene.kind == "sea":
         if scene.is_open:
             from hydroelastic.scenes.open_water.check import check_open
 
@@ -95,19 +92,21 @@ def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
         from hydroelastic.scenes.tank.check import check_tank
 
         return check_tank
-    if isinstance(scene, RoundTankScene):
-        from hydroelastic.scenes.round_tank.check import check_round_tank
+    if scene.kind == "tank":
+        from hydroelastic.scenes.models.round_tank import RoundTankScene
 
-        return check_round_tank
-    if isinstance(scene, LevelTankScene):
+        if isinstance(scene, RoundTankScene):
+            from hydroelastic.scenes.round_tank.check import check_round_tank
+
+            return check_round_tank
         from hydroelastic.scenes.level_tank.check import check_level_tank
 
         return check_level_tank
-    if isinstance(scene, StringScene):
+    if scene.kind == "string":
         from hydroelastic.scenes.string.check import check_string
 
         return check_string
-    if isinstance(scene, ThreadScene):
+    if scene.kind == "thread":
         from hydroelastic.scenes.thread.check import check_thread
 
         return check_thread

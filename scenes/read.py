@@ -10,34 +10,49 @@ from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from pydantic import ValidationError
 
+from hydroelastic.scenes import models
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
-from hydroelastic.scenes.models.level_tank import LevelTankScene, is_level_tank
 from hydroelastic.scenes.models.plain import plain
-from hydroelastic.scenes.models.roll import RollScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
-from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.models.tank_kinds import is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write, how_to_write_line
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.words import nearest, proposal
 
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.level_tank import LevelTankScene
+    from hydroelastic.scenes.models.roll import RollScene
+    from hydroelastic.scenes.models.round_tank import RoundTankScene
+    from hydroelastic.scenes.models.sea import SeaScene
+    from hydroelastic.scenes.models.string import StringScene
+    from hydroelastic.scenes.models.thread import ThreadScene
+
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | RoundTankScene | StringScene | ThreadScene | RollScene
+Scene: TypeAlias = "TankScene | SeaScene | LevelTankScene | RoundTankScene | StringScene | ThreadScene | RollScene"
 
-SCENE_MODELS: dict[str, type[Scene]] = {
-    "tank": TankScene,
-    "sea": SeaScene,
-    "string": StringScene,
-    "thread": ThreadScene,
-    "roll": RollScene,
-}
+
+class _SceneModels(Mapping[str, "type[Scene]"]):
+    """Imports the model of a kind of scene when it is asked for."""
+
+    def __getitem__(self, kind: str) -> type[Scene]:
+        if kind not in tuple(self):
+            raise KeyError(kind)
+        model: type[Scene] = getattr(models, f"{kind.title()}Scene")
+        return model
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(("tank", "sea", "string", "thread", "roll"))
+
+    def __len__(self) -> int:
+        return 5
+
+
+SCENE_MODELS = _SceneModels()
 """Which model a ``kind`` is read with."""
 
 MOST_BYTES = 20_000_000
@@ -193,10 +208,10 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
     Raises:
         SceneError: if it is of another kind, or the ends of the tank are open.
     """
-    if isinstance(scene, LevelTankScene | RoundTankScene):
-        remedy = "The command run takes three dimensions, with an error estimate at any accuracy.tolerance"
-        raise SceneError(Problem(key="[tank]", wrong=f"{because} per metre of width", remedy=remedy))
     if not isinstance(scene, TankScene):
+        if scene.kind == "tank":
+            remedy = "The command run takes three dimensions, with an error estimate at any accuracy.tolerance"
+            raise SceneError(Problem(key="[tank]", wrong=f"{because} per metre of width", remedy=remedy))
         raise SceneError(_misplaced('key "kind"', scene.kind, because, allowed='"tank"', what="this kind"))
     if scene.is_open:
         raise SceneError(
@@ -279,8 +294,14 @@ def _model_of(document: Document, label: str) -> type[Scene]:
         )
         raise SceneError(problem, file=label)
     if kind == "tank" and is_round_tank(document):
+        from hydroelastic.scenes.models.round_tank import RoundTankScene
+
         return RoundTankScene
-    return LevelTankScene if kind == "tank" and is_level_tank(document) else SCENE_MODELS[kind]
+    if kind == "tank" and is_level_tank(document):
+        from hydroelastic.scenes.models.level_tank import LevelTankScene
+
+        return LevelTankScene
+    return SCENE_MODELS[kind]
 
 
 @dataclass(frozen=True, kw_only=True)

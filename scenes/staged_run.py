@@ -111,6 +111,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         scene: _Scene,
         *,
         solve: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None,
+        tables: bool = True,
         import_seconds: float = 0.0,
         report: Report = lambda _message: None,
     ) -> Outcome:
@@ -118,11 +119,12 @@ class StagedRun(Generic[_Scene, _Solution]):
 
         Args:
             solve: in place of that of the kind of scene, for example without estimates.
+            tables: whether the tables are made, without which nothing can be printed or written.
         """
         comm = MPI.COMM_WORLD
         solution = (solve or self.solve)(scene, comm, report)
         summary = self.summarized(scene, solution, import_seconds)
-        sections = tuple(self.sections(solution, summary))
+        sections = tuple(self.sections(solution, summary)) if tables else ()
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))
 
     def summarized(self, scene: _Scene, solution: _Solution, import_seconds: float = 0.0) -> Summary:

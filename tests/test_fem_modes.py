@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from petsc4py import PETSc
 
-from hydroelastic.fem.modes import Mode, count_below, solve_modes
+from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.modes import Mode, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.tank.solve import TankSolution
 

@@ -82,6 +82,16 @@ def test_drag_in_irregular_waves_takes_the_power_of_its_linear_damping() -> None
     assert amplitudes(low)["roll"] == pytest.approx(amplitudes(free)["roll"], rel=0.1)
 
 
+def test_a_narrow_band_drifts_as_a_regular_wave() -> None:
+    body = BARGE | {"motions": ["heave"]}
+    band = {"kind": "spectrum", "waves": "table", "omega": [0.899, 0.9, 0.901], "density": [0.0, 50.0, 0.0]}
+    regular = {"kind": "response", "omega": [0.9]}
+    solution = solved(body, [band, regular])
+    # 2 (F/A²) m₀ with m₀ = ½ · 0.002 · 50; F/A² changes by less than 1 % in the band.
+    expected = 2.0 * solution.response[0].drift_force[0, 0] * 0.05
+    assert solution.spectrum[0].mean_drift_force == pytest.approx(expected, rel=1e-2)
+
+
 def test_loads_along_a_plate() -> None:
     plate = {"length": 20.0, "flexural_rigidity": 1e8, "mass_per_length": 500.0}
     (table,) = solved(plate, [WAVES | {"thickness": 1.0, "positions": 31, "highest_omega": 1.3}]).spectrum

@@ -49,7 +49,7 @@ def solved(depth: float) -> OpenWaterSolution:
     return solve_open_water(problem(depth), requests)
 
 
-@pytest.mark.slow_but("inf")
+@pytest.mark.slow_but("bed")
 @pytest.mark.parametrize("depth", [np.inf, 3.0], ids=["inf", "bed"])
 def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> None:
     solution = solved(depth)
@@ -80,6 +80,7 @@ def test_added_mass_and_damping_come_back_to_a_millionth() -> None:
     assert table.ogilvie_error.max() < 1e-6
 
 
+@pytest.mark.slow
 def test_impulse_response_of_a_circle_decays_like_an_inverse_square() -> None:
     table = solved(np.inf).impulse_response[0]
     # b ~ hω of long waves in deep water leaves K ~ −(2/π) h/t², with h = ρ (2R)²: the waterplane is a wavemaker.
@@ -89,7 +90,7 @@ def test_impulse_response_of_a_circle_decays_like_an_inverse_square() -> None:
     assert table.impulse_response[-1, 0, 0] == pytest.approx(expected, rel=0.05)
 
 
-@pytest.mark.slow_but("inf")
+@pytest.mark.slow_but("bed")
 @pytest.mark.parametrize("depth", [np.inf, 3.0], ids=["inf", "bed"])
 def test_regular_waves_end_in_the_response_of_the_frequency_domain(depth: float) -> None:
     table = solved(depth).motion[0]

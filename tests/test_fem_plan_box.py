@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
-from hydroelastic.fem.modes import count_below
+from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.plan.box import BoxSolution, solve_box
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Plate, Rectangle

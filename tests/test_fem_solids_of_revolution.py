@@ -3,59 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import TOO_SMALL, complex_of, stored
+from open_cases import TOO_SMALL, complex_of
 from scipy.special import h1vp, jvp
+from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, solved
 
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
-from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
+from hydroelastic.fem.open_water.solve import solve_open_water
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.open_water.physics import open_water_problem
 
-CASES = {case["name"]: case for case in stored("axisymmetric_sea.json")["cases"]}
-DENSITY, GRAVITY = 1000.0, 9.81
-MOTIONS = ("heave", "surge", "pitch")
 SLOW = pytest.mark.slow
-
-
-def solved(
-    bodies: list[dict[str, Any]], depth: float, tolerance: float, *requests: Any, motions: tuple[str, ...] = MOTIONS
-) -> OpenWaterSolution:
-    """Solve for solids; pitch is about the still level."""
-    body = [{"kind": "float", "motions": list(motions), "vertical_centre_of_gravity": 0.0} | one for one in bodies]
-    scene = SeaScene.model_validate(
-        {
-            "liquid": [{"density": DENSITY, "depth": depth}],
-            "body": [one | {"unstable": "solve"} for one in body],
-            "accuracy": {"tolerance": tolerance},
-        }
-    )
-    return solve_open_water(open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()), requests)
-
-
-def bodies_of(case: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the bodies of a case as they are written in scenes."""
-    given = case["inputs"]
-    if "list" not in given:
-        kind = {"shape": "cylinder", "draught": float(given["draught"])} if "draught" in given else {"shape": "sphere"}
-        return [kind | {"radius": float(given["radius"])}]
-    bodies, inner = [], 0.0
-    for outer, draught, body in given["list"]:
-        if body is not None:
-            hole = {"inner_radius": inner} if inner else {}
-            bodies.append({"shape": "cylinder", "radius": float(outer), "draught": float(draught), **hole})
-        inner = float(outer)
-    return bodies
-
-
-def depth_of(case: dict[str, Any]) -> float:
-    """Return the depth of a case, m."""
-    return float(case["inputs"]["depth"])
 
 
 RADIATION = [

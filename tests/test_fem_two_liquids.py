@@ -13,7 +13,8 @@ import pytest
 from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid, sparse
 from petsc4py import PETSc
 
-from hydroelastic.fem.modes import count_below, solve_modes
+from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.modal.liquid.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.tank import TankScene

@@ -10,7 +10,8 @@ import pytest
 from float_problems import ALL, UNSTABLE, raw_problem
 from layered_tanks import PlainProblem, layered, pencils, rigid
 
-from hydroelastic.fem.modes import count_below, solve_modes
+from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.tank.solve import solve_scene

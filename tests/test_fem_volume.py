@@ -17,9 +17,10 @@ from hydroelastic.fem import checkpoint
 from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import liquid_space
-from hydroelastic.fem.modes import lowest_beyond, solve_modes
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.classes import merged_errors, no_mode_is_beyond, solve_classes
 from hydroelastic.fem.plan.solve import solve_smallest_model
+from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.fem.shape_loads import facet_quadrature, surface_load
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume import solve as volume_solve
@@ -276,9 +277,8 @@ def test_hydrostatics_of_a_box_and_a_sphere_are_those_of_their_wetted_surface() 
         assert float(weight @ towards[2]) == pytest.approx(found.waterplane, rel=1e-4)
         moments = [float(weight @ ((at[1 - axis] - (0.8, 0.9)[axis]) ** 2 * towards[2])) for axis in (0, 1)]
         lever = found.volume * (found.buoyancy - 0.05)
-        assert solid.stiffness() == pytest.approx(
-            [0.0, 0.0, found.waterplane, found.second[0] + lever, found.second[1] + lever, 0.0]
-        )
+        stiffness = [0.0, 0.0, found.waterplane, found.second[0] + lever, found.second[1] + lever, 0.0]
+        assert np.allclose(solid.stiffness(), np.diag(stiffness), atol=1e-12)
         if shape == "box":
             assert moments == pytest.approx(found.second, rel=1e-4)
         names = [f"{motion}" for motion in float_body(solid, "body_1", (1, 0)).dofs]

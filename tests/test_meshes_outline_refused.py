@@ -19,7 +19,7 @@ from outlines import (
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.filling import Line, fill
 from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Region
-from hydroelastic.meshes.size_field import Discs, SizeField
+from hydroelastic.meshes.size_field import SizeField
 from hydroelastic.meshes.tagged_mesh import MeshError
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -95,8 +95,8 @@ def test_curves_that_cross_or_touch_are_refused(outline: Outline, message: str) 
 )
 def test_gmsh_works_on_after_it_failed() -> None:
     bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
-    line = Line(key=0, points=bow_tie, forward=True, divided=True)
-    size = SizeField(bulk_size=0.3, growth=0.7, straight=[], rings=[], bends=Discs.joined([]))
+    line = Line(key=0, points=bow_tie, forward=True)
+    size = SizeField(bulk_size=0.3, growth=0.7, straight=[], rings=[], bends=[])
     with pytest.raises(MeshError, match="gmsh could not mesh"):
         fill([bow_tie], [[line]], size)
     assert len(build_mesh(circle_tank(Circle()), bulk_size=0.5).cells) > 100

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from time import process_time
-
 import numpy as np
 import pytest
 from string_bromwich import bromwich
@@ -136,10 +134,9 @@ def test_many_points_need_fewer_modes_than_few() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("motion", MOTIONS)
-def test_a_million_points_take_seconds(motion: Ramp | Sine | Smooth | Step) -> None:
+def test_a_million_points_need_few_modes_and_keep_their_errors(motion: Ramp | Sine | Smooth | Step) -> None:
     positions, times = np.linspace(0, 2, 1000), np.linspace(0, 4, 1000)
-    start = process_time()
     found = string_response(STRING, motion, positions, times)
-    # Measured: 1.0 to 1.4 s of one core.
-    assert process_time() - start < 4
+    # With 10,000 points eight times as many: the cost of many points is bounded.
+    assert found.terms <= 4096
     assert np.mean(found.errors > 1e-9) < 0.02

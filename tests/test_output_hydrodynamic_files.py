@@ -17,7 +17,7 @@ from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
 from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
 from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
 from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
-from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies, whole_bodies_of_sections
+from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies, bodies_of_tables
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import SeaScene
@@ -95,7 +95,7 @@ def section() -> SimpleNamespace:
 
 @pytest.fixture(scope="module")
 def bodies(section: SimpleNamespace) -> WholeBodies:
-    return whole_bodies_of_sections(
+    return bodies_of_tables(
         physical_tank(scene()),
         [section.radiation],
         [cast(ResponseTable, section.response)],

@@ -12,8 +12,9 @@ from pydantic import ValidationError
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
-from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.sea import SeaScene
+from hydroelastic.scenes.models.tank_kinds import is_round_tank
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank

@@ -16,7 +16,8 @@ from scipy.linalg import solve
 from scipy.sparse import csr_matrix
 
 from hydroelastic.fem.level_bed.line import Line
-from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, SurfaceBlocks, coupled_pencil
+from hydroelastic.fem.liquid_answer import liquid_answer
+from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.modal.plate.line_modes import LineModes
@@ -151,8 +152,8 @@ def order_pencil(
         solver=operator,
         closed=(0,) if liquid.is_closed else (),
     )
-    added = coupling.T @ potentials
-    return replace(pencil, answer=LiquidAnswer(potentials=potentials, added_mass=0.5 * (added + added.T)))
+    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.stiffness, pencil.body_size)
+    return replace(pencil, answer=answer)
 
 
 def covered_elements(line: Line) -> np.ndarray:

@@ -8,13 +8,13 @@ from itertools import count as counting
 import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.choice import NotTreatedError
 from hydroelastic.fem.level_bed.orders import OrderSolution, solve_order, solve_orders
 from hydroelastic.fem.level_bed.plate_tone import ROUNDING, SAFETY, plate_tone
 from hydroelastic.fem.level_bed.resolution import LineResolution, expected_eigenvalue, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import Separation, separated
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, shift_above, shortcomings
-from hydroelastic.fem.modes import count_below
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import LevelTank
 

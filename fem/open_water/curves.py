@@ -7,12 +7,14 @@ between them are halved until cubic splines through the motions meet the next on
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
+from hydroelastic.fem.open_water.radiation import between
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Swept
 
@@ -33,12 +35,27 @@ class Curves:
         omegas: ascending, rad/s, shape (n,).
         responses: at these.
         errors: estimated relative errors, shape (n,).
+        incident: indices of the incident waves.
+        ratio: relative error of the basis over the square of its residual.
     """
 
     solver: OpenSolver
     omegas: np.ndarray
     responses: list[OpenResponse]
     errors: np.ndarray
+    incident: list[int]
+    ratio: float
+
+    def at(self, omegas: np.ndarray) -> Curves:
+        """Return the responses at all these frequencies and further ones, within the same limits (collective)."""
+        union = np.union1d(self.omegas, omegas)
+        places = [int(place) for place in np.searchsorted(union, self.omegas)]
+        errors = between(union, places, self.errors)
+        found = dict(zip(places, self.responses, strict=True))
+        for place in sorted(set(range(len(union))) - set(places)):
+            found[place], residual = self.solver.response_between(float(union[place]), self.incident)
+            errors[place] += self.ratio * residual**2
+        return replace(self, omegas=union, responses=[found[place] for place in range(len(union))], errors=errors)
 
 
 def refined_curves(
@@ -85,20 +102,14 @@ def refined_curves(
         omegas=known,
         responses=[found[omega] for omega in known],
         errors=np.array([errors[omega] for omega in known]),
+        incident=incident,
+        ratio=swept.ratio,
     )
-
-
-def elevation_of(response: OpenResponse, incident: int = 0) -> complex:
-    """Return the elevation of an incident wave, by its number in the response, where its phase is told, per unit c."""
-    place = response.incident[incident]
-    phase = np.exp(1j * response.incidence.phases_at_origin(response.model.basin)[place])
-    return complex(response.incidence.elevations[place] * phase)
 
 
 def _motions_of(response: OpenResponse) -> np.ndarray:
     """Motions per elevation, shape (incident, body unknowns)."""
-    elevations = [elevation_of(response, number) for number in range(len(response.incident))]
-    motions: np.ndarray = response.motions / np.array(elevations)[:, None]
+    motions: np.ndarray = response.motions * response.per_elevation(RIGHTWARD)[:, None]
     return motions
 
 

@@ -28,7 +28,7 @@ from hydroelastic.fem.open_water.infinite_frequency import (
     bodies_at_infinite_frequency,
     infinite_frequency_added_mass,
 )
-from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep, lowest_meshed_frequency
+from hydroelastic.fem.open_water.low_frequency import has_low_frequency_series, lowest_meshed_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between
@@ -153,7 +153,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
             slow=0.5 * expected[0] / unit,
             watch=problem.watch,
         )
-        found = integral.followed(times * unit, infinitely_deep=is_infinitely_deep(problem.tank))
+        found = integral.followed(times * unit, has_low_series=has_low_frequency_series(problem.tank))
         size = np.abs(initial).max()
         missed = np.abs(resonant.result.motion[-1] + found.motion[-1] - initial).max()
         causes = replace(found.errors, liquid=found.errors.liquid + resonant.result.errors + missed).scaled(1.0 / size)

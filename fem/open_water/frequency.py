@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.open_water.incident_waves import Incidence, Plane
+from hydroelastic.fem.open_water.incident_waves import Circular, Incidence, Plane
 
 # Forces below this part of the largest, in units of the basin, are compared with that part.
 _NO_FORCE = 1e-4
@@ -147,14 +147,51 @@ class OpenResponse:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
         return self.potentials()
 
-    def outgoing(self) -> np.ndarray:
-        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
-        return self._outgoing(self.motions, self.fluxes)
+    def outgoing(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident).
 
-    def _outgoing(self, motions: np.ndarray, scattered: np.ndarray) -> np.ndarray:
-        incidence = self.incidence
+        Args:
+            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+        """
+        incidence, scattered = self.incidence, self.fluxes
+        if motions is None:
+            motions = self.motions
+        else:
+            scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
         fluxes = incidence.pressures @ motions.T - incidence.own[:, self.incident] - scattered
         return incidence.amplitudes(fluxes) + incidence.incoming * np.eye(len(incidence.planes))[:, self.incident]
+
+    def ratios(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape
+        (incident, outgoing waves).
+
+        Args:
+            motions: see `outgoing`.
+        """
+        incidence = self.incidence
+        # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
+        phases = np.exp(1j * incidence.phases_at_origin(self.model.basin))
+        scaled = incidence.elevations * phases
+        found: np.ndarray = (self.outgoing(motions) * scaled[:, None] / scaled[self.incident]).T
+        return found
+
+    def partial_waves(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return aₙ of the elevation εₙ iⁿ [Jₙ(kr) + aₙ Hₙ(kr)] cos nθ about an axis, shape (incident, outgoing waves).
+
+        Args:
+            motions: see `outgoing`.
+        """
+        scattered: np.ndarray = self.ratios(motions) - self.incidence.incoming * np.eye(len(self.incident))
+        return scattered
+
+    def per_elevation(self, towards: int) -> np.ndarray:
+        """Return the factors of what is per c of each incident wave for a unit elevation with its phase at x = 0, of
+        waves towards +x (1) or −x (−1), shape (incident,); about an axis of the part of this order."""
+        incidence, basin = self.incidence, self.model.basin
+        phases = np.exp(1j * incidence.phases_at_origin(basin))
+        parts = [plane.part(towards, basin) if isinstance(plane, Circular) else 1.0 for plane in incidence.planes]
+        factors: np.ndarray = (np.array(parts) / (incidence.elevations * phases))[self.incident]
+        return factors
 
     def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return the mean force along x, of second order in the waves, per |c|² of each incident wave, dimensionless,
@@ -165,15 +202,12 @@ class OpenResponse:
         Longuet-Higgins 1977, Proc. R. Soc. Lond. A 352, 463).
 
         Args:
-            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+            motions: see `outgoing`.
         """
-        outgoing = self.outgoing()
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.
             return np.zeros(len(self.incident))
-        if motions is not None:
-            scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
-            outgoing = self._outgoing(motions, scattered)
+        outgoing = self.outgoing(motions)
         planes, powers = self.incidence.planes, self.incidence.powers
         momenta = 0.5 * self.squared.real * np.array([plane.wave.wavenumber for plane in planes]) * powers
         directions = np.array([plane.direction for plane in planes if isinstance(plane, Plane)])

@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 from scipy.special import jv, jvp
@@ -30,8 +30,10 @@ from scipy.special import jv, jvp
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
-from hydroelastic.modal.liquid.travelling_waves import TravellingWave
+from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.geometry import Geometry
+from hydroelastic.physics.tank import Tank
 
 RIGHTWARD, LEFTWARD = 1, -1
 
@@ -132,6 +134,34 @@ def incident_waves(waves: tuple[TravellingWave, ...], geometry: Geometry) -> lis
     if geometry.is_revolved:
         return [Circular(wave=wave, geometry=geometry) for wave in waves]
     return [Plane(wave=wave, direction=direction) for direction in (RIGHTWARD, LEFTWARD) for wave in waves]
+
+
+def direction_of(waves_from: Literal["left", "right"]) -> int:
+    """Return the direction of waves from a side: `RIGHTWARD` or `LEFTWARD`."""
+    return RIGHTWARD if waves_from == "left" else LEFTWARD
+
+
+def drift_of_orders(tank: Tank, omega: np.ndarray, wavenumber: np.ndarray, waves: np.ndarray) -> np.ndarray:
+    """Return the mean force along the waves per square of their amplitude, N/m², shape (n,).
+
+    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
+    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation.
+
+    Args:
+        tank: the open water, with waves on one level.
+        omega: rad/s, shape (n,).
+        wavenumber: k, 1/m, shape (n,).
+        waves: aₙ of the orders from 0 on, shape (n, orders).
+    """
+    layers = two_layers(tank)
+    own, following = waves[:, :-1], waves[:, 1:]
+    widths = -4.0 / wavenumber * (own + following + 2.0 * own * following.conj()).real.sum(axis=-1)
+    momenta = []
+    for one in omega:
+        (wave,) = travelling_waves(layers, float(one))
+        momenta.append(0.5 * one**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
+    force: np.ndarray = np.array(momenta) * widths
+    return force
 
 
 @dataclass(frozen=True, kw_only=True)

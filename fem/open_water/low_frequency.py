@@ -6,7 +6,8 @@ With κ = kb, b the length of the basin, and L = ln p on a line p = −iω of th
 
 the expansion for long waves: C and D are those of a source at the body, further terms those of higher multipoles. The
 coefficients are fitted to H at a few frequencies; their error at twice the highest of these estimates the neglected
-terms. Over a bed H has no logarithm, and the mesh resolves all frequencies.
+terms. Over a bed H of a section has no logarithm, and the mesh resolves all frequencies. The waves of a solid of
+revolution spread in two directions: H has the logarithm over a bed, and in deep water D = 0.
 """
 
 from __future__ import annotations
@@ -91,11 +92,18 @@ def lowest_meshed_frequency(water: Tank, latest: float) -> float:
         water: open water in SI units.
         latest: the last time at which the motion is wanted, s.
     """
-    if not is_infinitely_deep(water):
+    if not has_low_frequency_series(water):
         return _LOWEST_OVER_A_BED / latest
     layers, extent = two_layers(water), open_basin(water, 0.0).units.length
     buoyancy = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
-    return sqrt(_LONG * layers.gravity * buoyancy / extent)
+    # In shallow water (kb)² is small, and over a deep bed (kH)².
+    lengths = [extent, *(max(layer.depth, extent**2 / layer.depth) for layer in water.layers if not isinf(layer.depth))]
+    return sqrt(_LONG * layers.gravity * buoyancy / max(lengths))
+
+
+def has_low_frequency_series(water: Tank) -> bool:
+    """Whether H has the series for long waves: in infinitely deep liquids, and about an axis."""
+    return water.geometry.is_revolved or is_infinitely_deep(water)
 
 
 def is_infinitely_deep(water: Tank) -> bool:

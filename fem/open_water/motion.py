@@ -56,7 +56,8 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
     asked = RadiationRequest(omega=tuple(distinct.tolist()), elastic_modes=request.elastic_modes)
     radiation = solve_radiation(problem, asked)
     table = radiation.table
-    middle = sum(problem.tank.bodies[0].waterplane) / 2.0 - problem.tank.phase_at
+    tank = problem.tank
+    middle = (0.0 if tank.geometry.is_revolved else sum(tank.bodies[0].waterplane) / 2.0) - tank.phase_at
     direction = 0 if request.waves_from == "left" else 1
     # The given phases are those at the first body.
     travelled = (1.0, -1.0)[direction] * table.wavenumbers[place, 0] * middle

@@ -12,11 +12,17 @@ import numpy as np
 
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
+from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.radiation_memory import Memory
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.requests import (
     DecayRequest,
+    ImpulseResponseRequest,
+    MotionRequest,
     RadiationRequest,
     Request,
     ResonanceRequest,
@@ -25,16 +31,29 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.modal.liquid.travelling_waves import travelling_waves
-from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.dofs import Dof, dof_names
 
-Solution = TypeVar("Solution", RadiationSolution, ResponseSolution, ResonanceSolution, DecaySolution)
+Solution = TypeVar(
+    "Solution",
+    RadiationSolution,
+    ResponseSolution,
+    ResonanceSolution,
+    DecaySolution,
+    ImpulseResponseSolution,
+    MotionSolution,
+)
 
 
 def solve_by_order(
-    problem: OpenWaterProblem, request: Request
-) -> RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution:
+    problem: OpenWaterProblem, request: Request, memory: Memory
+) -> (
+    RadiationSolution
+    | ResponseSolution
+    | ResonanceSolution
+    | DecaySolution
+    | ImpulseResponseSolution
+    | MotionSolution
+):
     """Solve an analysis for the orders that it needs, and join them (collective)."""
     match request:
         case RadiationRequest():
@@ -45,6 +64,10 @@ def solve_by_order(
             return _solve_decay(problem, request)
         case ResonanceRequest():
             return _solve_resonance(problem, request)
+        case ImpulseResponseRequest():
+            return _solve_impulse_response(problem, request, memory)
+        case MotionRequest():
+            return _solve_motion(problem, request, memory)
         case _:
             raise TypeError(f"{request.kind} is not solved for solids of revolution")
 
@@ -58,14 +81,9 @@ def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> Ra
 def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
     dofs = _dofs(problem)
     first = tables[0]
-    places = [_places(dofs, table.dofs) for table in tables]
 
     def matrices(name: str) -> np.ndarray:
-        values = [getattr(table, name) for table in tables]
-        whole = np.zeros((*values[0].shape[:-2], len(dofs), len(dofs)))
-        for own, value in zip(places, values, strict=True):
-            whole[..., own[:, None], own] = value
-        return whole
+        return _matrices(dofs, [(table.dofs, getattr(table, name)) for table in tables])
 
     def forces(name: str) -> np.ndarray:
         return _by_dof(dofs, [(table.dofs, getattr(table, name)) for table in tables])
@@ -116,12 +134,18 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
     dofs = _dofs(problem)
     waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
+    first = tables[0]
+    if len(first.waves) > 1:
+        drift = np.full(len(first.omega), np.nan)
+    else:
+        drift = drift_of_orders(problem.tank, first.omega, first.wavenumbers[:, 0], waves[:, 0, 0])
+        drift = direction_of(first.waves_from) * drift
     return replace(
-        tables[0],
+        first,
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=waves,
-        drift_force=_drift_force(problem, tables[0], waves),
+        drift_force=drift[:, None],
         absorption=np.sum(
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),
@@ -129,24 +153,6 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),
     )
-
-
-def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndarray) -> np.ndarray:
-    """Mean force along x per square of the amplitude, N/m²; NaN in waves on two levels.
-
-    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
-    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation.
-    """
-    if len(table.waves) > 1:
-        return np.full(table.energy_residual.shape, np.nan)
-    layers, towards = two_layers(problem.tank), 1.0 if table.waves_from == "left" else -1.0
-    own, following = waves[:, 0, 0, :-1], waves[:, 0, 0, 1:]
-    widths = -4.0 / table.wavenumbers[:, 0] * (own + following + 2.0 * own * following.conj()).real.sum(axis=-1)
-    momenta = []
-    for omega in table.omega:
-        (wave,) = travelling_waves(layers, float(omega))
-        momenta.append(0.5 * omega**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
-    return np.asarray(towards * np.array(momenta) * widths)[:, None]
 
 
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
@@ -205,6 +211,53 @@ def _solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolut
     return replace(_largest(found), table=table, error=_error(found), solved=sum(one.solved for one in found))
 
 
+def _solve_impulse_response(
+    problem: OpenWaterProblem, request: ImpulseResponseRequest, memory: Memory
+) -> ImpulseResponseSolution:
+    """Join the impulse responses of each order (collective); see `solve_impulse_response`."""
+    found = [solve_impulse_response(request, memory(order, request.elastic_modes)) for order in problem.tank.orders]
+    tables, dofs = [one.table for one in found], _dofs(problem)
+
+    def matrices(name: str) -> np.ndarray:
+        return _matrices(dofs, [(table.dofs, getattr(table, name)) for table in tables])
+
+    table = replace(
+        tables[0],
+        dofs=dofs,
+        impulse_response=matrices("impulse_response"),
+        infinite_frequency_added_mass=matrices("infinite_frequency_added_mass"),
+        added_mass=matrices("added_mass"),
+        radiation_damping=matrices("radiation_damping"),
+        causality_error=np.max([table.causality_error for table in tables], axis=0),
+        ogilvie_error=np.max([table.ogilvie_error for table in tables], axis=0),
+        relative_error=max(table.relative_error for table in tables),
+    )
+    return replace(_largest(found), table=table, error=_error(found))
+
+
+def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Memory) -> MotionSolution:
+    """Join the motions of each order in waves, which forces from outside do not couple (collective); see
+    `solve_motion`."""
+    found = [
+        solve_motion(problem.of_order(order), request, memory(order, request.elastic_modes))
+        for order in problem.tank.orders
+    ]
+    tables, dofs = [one.table for one in found], _dofs(problem)
+
+    def motions(name: str) -> np.ndarray:
+        return _by_dof(dofs, [(table.dofs, getattr(table, name)) for table in tables])
+
+    table = replace(
+        tables[0],
+        dofs=dofs,
+        displacement=motions("displacement"),
+        velocity=motions("velocity"),
+        steady=motions("steady"),
+        relative_error=max(table.relative_error for table in tables),
+    )
+    return replace(_largest(found), table=table, error=_error(found))
+
+
 def _dofs(problem: OpenWaterProblem) -> tuple[Dof, ...]:
     """Degrees of freedom of all orders, body by body."""
     return dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
@@ -220,6 +273,17 @@ def _by_dof(dofs: tuple[Dof, ...], parts: list[tuple[tuple[Dof, ...], np.ndarray
     whole = np.zeros((*values.shape[:-1], len(dofs)), dtype=values.dtype)
     for own, value in parts:
         whole[..., _places(dofs, own)] = value
+    return whole
+
+
+def _matrices(dofs: tuple[Dof, ...], parts: list[tuple[tuple[Dof, ...], np.ndarray]]) -> np.ndarray:
+    """Matrices of the motions of some orders, shape (…, own motions, own motions), among all: shape (…, motions,
+    motions)."""
+    values = parts[0][1]
+    whole = np.zeros((*values.shape[:-2], len(dofs), len(dofs)))
+    for own, value in parts:
+        places = _places(dofs, own)
+        whole[..., places[:, None], places] = value
     return whole
 
 

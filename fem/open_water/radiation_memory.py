@@ -1,15 +1,19 @@
 """The memory of the waves that bodies radiate: H along a ray of complex frequencies, as exponentials in time.
 
 H on a reduced basis of solutions on the ray and on the real axis, with the series `low_frequency` and `high_frequency`
-beyond the mesh, gives the exponentials of `fem/time_domain/radiation_memory.py`. H on the real axis, which does not
-enter these, tells the error: where H is analytic between the real axis and the ray, and a∞ of the problem with ψ = 0
-on the free surface is its limit, both agree. A resonance of the water between the bodies in between would show there.
+beyond the mesh, gives the exponentials of `fem/time_domain/radiation_memory.py`. Resonances of the water between bodies
+that lie between the real axis and the ray are exponentials of their own. H on the real axis, which does not enter
+these, tells the error: where H is analytic in between but for them, and a∞ of the problem with ψ = 0 on the free
+surface is its limit, both agree.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import pi, sqrt
+from typing import TypeAlias
 
 import numpy as np
 
@@ -18,7 +22,11 @@ from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, Band, OpenModel, open_model
 from hydroelastic.fem.open_water.high_frequency import arc, high_frequency_series, highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
-from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep, lowest_meshed_frequency
+from hydroelastic.fem.open_water.low_frequency import (
+    has_low_frequency_series,
+    is_infinitely_deep,
+    lowest_meshed_frequency,
+)
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference, reported_shapes
@@ -38,6 +46,12 @@ from hydroelastic.physics.tank import Tank
 _ON_RAY, _ON_ARC, _ON_AXIS = 40, 12, 20
 # Error of the trapezoidal rule along the ray.
 _RULE = 1e-9
+# Angle over α within which resonances of the water are sought: the continuous spectrum is at half of α.
+_SEARCHED = 0.35
+# Factor of a resonance ω beside it, within which the water mainly oscillates as in it.
+_BESIDE = 1.0 - 0.02j
+# Part of H that a resonance of the water adds to it at the same frequency, below which it is none.
+_NO_PEAK = 1e-8
 # Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.
 _LOWER, _HIGHER = 1e-3, 1e8
 
@@ -85,6 +99,10 @@ class WaterMemory:
         return largest
 
 
+Memory: TypeAlias = Callable[[int, int], WaterMemory]
+"""The memory of the water by azimuthal order, 0 of sections, and number of elastic shapes of each beam (collective)."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Found:
     """The memory at one resolution, and H on the real axis, in SI units."""
@@ -111,10 +129,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     scale = motion_scale(long, bodies)
     limit = scale.masses(matrix)
     band = memory_band(problem.tank, problem.tolerance, latest, elastic_modes)
-    deep = is_infinitely_deep(problem.tank)
-    scaling = ANGLE if deep else ANGLE_OVER_A_BED
-    # Halfway between the real axis and the continuous spectrum of deep water, arg ω = −α/2.
-    ray = Ray(angle=0.25 * scaling, gap=0.25 * scaling)
+    scaling = ANGLE if is_infinitely_deep(problem.tank) else ANGLE_OVER_A_BED
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
         model = open_model(problem, band, replace(resolution, shapes=shapes), angle=scaling)
@@ -131,20 +146,35 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
 
         # Lower ones change K at later times only.
         axis = np.geomspace(max(low, 1.0 / (latest * unit)), high, _ON_AXIS)
-        along = np.geomspace(low, high, _ON_RAY) * ray.turned
-        chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], axis])
         hydrodynamics = Problem(
             full=full, reduced=lambda omega: solver.hydrodynamic(omega**2), difference=relative_difference
         )
-        swept = sweep(hydrodynamics, chosen, problem.tolerance)
+
+        def swept_along(ray: Ray, further: np.ndarray) -> float:
+            """Make the basis accurate on the ray, the arc beyond it and at further ω; return its largest error."""
+            along = np.geomspace(low, high, _ON_RAY) * ray.turned
+            chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], further])
+            return float(sweep(hydrodynamics, chosen, problem.tolerance).errors.max())
+
+        ray = _widest_ray(np.zeros(0), scaling)
+        basis_error = swept_along(ray, axis)
+        resonances, _ = _resonances(solver, (low, high), _SEARCHED * scaling)
+        if len(resonances):
+            for omega in resonances:
+                # The solution beside it is nearly the resonance, and not all rounding.
+                solver.radiation((omega * _BESIDE) ** 2)
+            ray = _widest_ray(_resonances(solver, (low, high), _SEARCHED * scaling)[0], scaling)
+            basis_error = max(basis_error, swept_along(ray, np.zeros(0)))
+        resonances, residues = _resonances(solver, (low, high), ray.angle)
         with problem.watch.stage("memory"):
             far = model.scale.unknown_masses(limit)
             fast = high_frequency_series(lambda omegas: solver.hydrodynamics(omegas**2), high * ray.turned, far)
-            radii = ray_radii(min(_LOWER / (latest * unit), 1e-4 * low), _HIGHER * high, ray.angle, _RULE)
-            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), fast, infinitely_deep=deep)
+            radii = ray_radii(min(_LOWER / (latest * unit), 1e-4 * low), _HIGHER * high, ray.gap, _RULE)
+            has_series = has_low_frequency_series(problem.tank)
+            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), fast, has_low_series=has_series)
             is_short = radii > high
             beyond = np.concatenate([added[~is_short] - far, fast.beyond_limit(radii[is_short] * ray.turned)])
-            if not deep:
+            if not has_series:
                 beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
             masses = model.scale.masses
             memory = memory_on_ray(
@@ -154,6 +184,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
                 ray.angle,
                 start=masses(fast.coefficients[0]) * band.highest**2,
                 quickest=band.highest,
+                poles=np.conj(-1j * resonances * unit),
+                residues=np.array([masses(one) for one in residues.conj()]).reshape(-1, *limit.shape) * unit**2,
             )
         found = _Found(
             memory=memory,
@@ -162,7 +194,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
         )
         return Attempt(
-            result=found, causes=joined_errors(causes, float(swept.errors.max()) + limit_error), resolution=resolution
+            result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution
         )
 
     attempt = best_over_band(problem, band, solve)
@@ -175,6 +207,27 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
         model=found.model,
         error=attempt.error,
     )
+
+
+def _resonances(solver: OpenSolver, band: tuple[float, float], angle: float) -> tuple[np.ndarray, np.ndarray]:
+    """ω of the water about fixed bodies within an angle from the real axis, dimensionless, shape (k,), and R of
+    H = Σ R/(ω² − ω'²) there, shape (k, m, m) (collective)."""
+    squares, residues = solver.water_resonances()
+    omegas = np.sqrt(squares)
+    within = (-np.angle(omegas) < angle) & (omegas.imag < 0.0) & (np.abs(omegas) > band[0]) & (np.abs(omegas) < band[1])
+    omegas, residues = omegas[within], residues[within]
+    sizes = np.abs(solver.hydrodynamics(np.abs(omegas) ** 2 * np.exp(-1j * angle))).max(axis=(1, 2), initial=0.0)
+    peaks = np.abs(residues).max(axis=(1, 2), initial=0.0) / np.abs((omegas**2).imag)
+    matters = peaks > _NO_PEAK * sizes
+    return omegas[matters], residues[matters]
+
+
+def _widest_ray(resonances: np.ndarray, scaling: float) -> Ray:
+    """Return the ray with most room between the real axis, resonances of the water, and its continuous spectrum of deep
+    water, arg ω = −α/2."""
+    stops = [0.0, *sorted(-np.angle(resonances)), 0.5 * scaling]
+    low, high = max(pairwise(stops), key=lambda gap: gap[1] - gap[0])
+    return Ray(angle=0.5 * float(low + high), gap=0.5 * float(high - low))
 
 
 def _with_long_waves(beyond: np.ndarray, p: np.ndarray, first: int) -> np.ndarray:

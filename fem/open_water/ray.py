@@ -131,12 +131,12 @@ class RayIntegral:
         self._omegas: list[complex] = []
         self._causes: list[FrequencyErrors] = []
 
-    def followed(self, times: np.ndarray, *, infinitely_deep: bool) -> RayMotion:
+    def followed(self, times: np.ndarray, *, has_low_series: bool) -> RayMotion:
         """Return the motion at some times (collective).
 
         Args:
             times: dimensionless times, not negative, shape (n,).
-            infinitely_deep: whether all liquids are, so that H has the series of `low_frequency` below the mesh.
+            has_low_series: whether H has the series of `low_frequency` below the mesh.
         """
         low, high = self._band
         meshed = np.geomspace(low, high, _ON_RAY) * self._ray.turned
@@ -150,7 +150,7 @@ class RayIntegral:
                 lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
             )
             added, slow = hydrodynamics_along_ray(
-                self._solver, self._ray, radii, self._band, fast, infinitely_deep=infinitely_deep
+                self._solver, self._ray, radii, self._band, fast, has_low_series=has_low_series
             )
             weights = self._ray_weights(radii)
             motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
@@ -284,7 +284,7 @@ def hydrodynamics_along_ray(
     band: tuple[float, float],
     fast: HighFrequencySeries,
     *,
-    infinitely_deep: bool,
+    has_low_series: bool,
 ) -> tuple[np.ndarray, LowFrequencySeries | None]:
     """Return H at |ω| of shape (n,) along a ray, shape (n, m, m), and its low-frequency series (collective).
 
@@ -294,11 +294,11 @@ def hydrodynamics_along_ray(
         radii: |ω|, ascending.
         band: lowest and highest frequency of the mesh; beyond these H is that of the series.
         fast: the high-frequency series.
-        infinitely_deep: whether all liquids are, so that H has a low-frequency series.
+        has_low_series: whether H has a low-frequency series.
     """
     low, high = band
     omegas = radii * ray.turned
-    slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if infinitely_deep else None
+    slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if has_low_series else None
     first = np.searchsorted(radii, low) if slow else 0
     last = np.searchsorted(radii, high, side="right")
     parts = [solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import nan
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.incident_waves import Circular
+from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
@@ -69,7 +69,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = request.elevation, np.zeros_like(solver.model.mass)
-        incident = _incident(solver.model, request)
+        incident = incident_places(solver.model, request.waves_from)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
@@ -93,7 +93,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     if request.hull_pressures:
         table = replace(table, **_on_hulls(found.swept.solutions))
     if len(omegas) > FEW:
-        incident = _incident(model, request)
+        incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
         table = replace(
             table,
@@ -125,7 +125,7 @@ def _on_hulls(solutions: list[OpenResponse]) -> dict[str, Any]:
 
 def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
-    incident = _incident(solver.model, request)
+    incident = incident_places(solver.model, request.waves_from)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
@@ -134,12 +134,12 @@ def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTab
     return unresolved_peaks(table, solver.resonances_between(), between)
 
 
-def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
-    """Indices of the incident waves: those to the right are first."""
+def incident_places(model: OpenModel, waves_from: Literal["left", "right"]) -> list[int]:
+    """Return the indices of the incident waves from a side: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
-    if model.basin.tank.geometry.is_revolved:
+    if waves_from == "left" or model.basin.tank.geometry.is_revolved:
         return list(range(count))
-    return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
+    return list(range(count, 2 * count))
 
 
 def outcome(solution: OpenResponse) -> np.ndarray:
@@ -184,11 +184,11 @@ def _table(
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
-    waves = np.array([_waves(solution) for solution in solutions])
+    waves = np.array([solution.ratios() for solution in solutions])
     forward = first.incident
     back = [int(first.incidence.reversed[place]) for place in forward]
-    towards = 1 if request.waves_from == "left" else -1
-    motions = np.array([_motions(solution, towards) for solution in solutions])
+    towards = direction_of(request.waves_from)
+    motions = np.array([one.motions * one.per_elevation(towards)[:, None] for one in solutions])
     is_round = model.basin.tank.geometry.is_revolved
     return ResponseTable(
         omega=omegas,
@@ -200,9 +200,7 @@ def _table(
         amplitudes=model.scale.amplitudes(motions),
         reflection=None if is_round else waves[:, :, back],
         transmission=None if is_round else waves[:, :, forward],
-        partial_waves=(waves - first.incidence.incoming * np.eye(count))[..., None].astype(complex)
-        if is_round
-        else None,
+        partial_waves=np.array([one.partial_waves() for one in solutions])[..., None] if is_round else None,
         absorption=np.array([solution.absorption for solution in solutions]),
         drift_force=drift_forces(solutions),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
@@ -212,37 +210,11 @@ def _table(
     )
 
 
-def _waves(solution: OpenResponse) -> np.ndarray:
-    """Elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape (incident,
-    waves)."""
-    incidence = solution.incidence
-    # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
-    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    scaled = incidence.elevations * phases
-    ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
-    return ratios
-
-
 def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
     """Return the mean force along x per square of the elevation of each incident wave, N/m³, shape (n, incident)."""
     units = solutions[0].model.basin.units
     forces = [one.drift_force() / one.incidence.elevations[one.incident] ** 2 for one in solutions]
     return units.density * units.gravity * np.array(forces)
-
-
-def _motions(solution: OpenResponse, towards: int) -> np.ndarray:
-    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns), of
-    waves towards +x (1) or −x (−1)."""
-    incidence = solution.incidence
-    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    parts = np.array(
-        [
-            plane.part(towards, solution.model.basin) if isinstance(plane, Circular) else 1.0
-            for plane in incidence.planes
-        ]
-    )
-    motions: np.ndarray = solution.motions * (parts / (incidence.elevations * phases))[solution.incident][:, None]
-    return motions
 
 
 def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:

@@ -286,7 +286,8 @@ class SpectrumTable:
         relative_error: (n,) estimated relative error of the transfer functions.
         responses: statistics of each quantity.
         dofs: m degrees of freedom.
-        mean_drift_force: mean force on the bodies along x, N/m.
+        mean_drift_force: mean force on the bodies along x, N/m; NaN about an axis in waves on two levels.
+        mean_absorbed_power: mean power that linear damping from outside takes, W/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
         plates: one for each beam.
     """
@@ -304,5 +305,6 @@ class SpectrumTable:
     responses: tuple[IrregularResponse, ...]
     dofs: tuple[Dof, ...]
     mean_drift_force: float
+    mean_absorbed_power: float
     equivalent_damping: Floats
     plates: tuple[PlateStatistics, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal, TypeAlias
@@ -16,7 +16,7 @@ from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.radiation_memory import WaterMemory, solve_memory
+from hydroelastic.fem.open_water.radiation_memory import Memory, WaterMemory, solve_memory
 from hydroelastic.fem.open_water.requests import (
     OVER_TIME,
     DecayRequest,
@@ -119,8 +119,8 @@ def solve_open_water(
     latest = max((max(one.times) for one in requests if isinstance(one, OVER_TIME)), default=0.0)
 
     @cache
-    def memory(elastic_modes: int) -> WaterMemory:
-        return solve_memory(problem, latest, elastic_modes)
+    def memory(order: int, elastic_modes: int) -> WaterMemory:
+        return solve_memory(problem.of_order(order), latest, elastic_modes)
 
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
@@ -150,12 +150,14 @@ def solve_open_water(
     )
 
 
-def _solved(problem: OpenWaterProblem, request: Request, memory: Callable[[int], WaterMemory]) -> _Solution:
-    """Solve one analysis; the memory of the water, by the elastic modes, serves several."""
+def _solved(problem: OpenWaterProblem, request: Request, memory: Memory) -> _Solution:
+    """Solve one analysis; the memory of the water serves several."""
+    if isinstance(request, SpectrumRequest):
+        return solve_spectrum(problem, request)
     if problem.tank.geometry.is_revolved:
         from hydroelastic.fem.open_water.orders import solve_by_order
 
-        return solve_by_order(problem, request)
+        return solve_by_order(problem, request, memory)
     match request:
         case RadiationRequest():
             return solve_radiation(problem, request)
@@ -163,12 +165,10 @@ def _solved(problem: OpenWaterProblem, request: Request, memory: Callable[[int],
             return solve_response(problem, request)
         case DecayRequest():
             return solve_decay(problem, request)
-        case SpectrumRequest():
-            return solve_spectrum(problem, request)
         case ImpulseResponseRequest():
-            return solve_impulse_response(request, memory(request.elastic_modes))
+            return solve_impulse_response(request, memory(0, request.elastic_modes))
         case MotionRequest():
-            return solve_motion(problem, request, memory(request.elastic_modes))
+            return solve_motion(problem, request, memory(0, request.elastic_modes))
         case _:
             return solve_resonance(problem, request)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from scipy.linalg import eigvals
+from scipy.linalg import eig, eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
@@ -273,6 +273,19 @@ class OpenSolver:
             omegas = np.sqrt(squares[np.isfinite(squares)]) * self.model.basin.units.frequency
         # All processes must take the same branch in spite of rounding.
         found: np.ndarray = self.model.pencil.comm.bcast(omegas)
+        return found
+
+    def water_resonances(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return λⱼ at which the water oscillates about fixed bodies, shape (basis,), and R of H = Σ R/(λⱼ − λ), shape
+        (basis, body unknowns, body unknowns), on the basis; with those of the continuous spectrum (collective)."""
+        with self._watch.stage("reduce"):
+            laplace = self._reduced.operator(0.0)
+            mass = laplace - self._reduced.operator(1.0)
+            squares, vectors = eig(laplace, mass)
+            forces = self._known_loads().projected @ vectors
+            residues = np.einsum("ij,kj,j->jik", forces, forces, 1.0 / np.einsum("ij,ik,kj->j", vectors, mass, vectors))
+        # All processes must take the same branch in spite of rounding.
+        found: tuple[np.ndarray, np.ndarray] = self.model.pencil.comm.bcast((squares, residues))
         return found
 
     def _coupled(self, squared: complex) -> np.ndarray:

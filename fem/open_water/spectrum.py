@@ -9,28 +9,37 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import reduce
+from math import nan
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.curves import Curves, elevation_of, refined_curves
+from hydroelastic.fem.open_water.curves import Curves, refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
+from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import along_beam, outcome, response_errors
+from hydroelastic.fem.open_water.response import along_beam, incident_places, outcome, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, sweep
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import IRREGULAR
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
+# Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
+_DRIFT = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,10 +60,25 @@ class SpectrumSolution:
 def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> SpectrumSolution:
     """Solve for the statistics of responses to irregular waves (collective).
 
+    The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
+    same frequencies in the end.
+
     Args:
         problem: the open water.
         request: spectrum, duration, points.
     """
+    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
+    curves = [one.result.at(omegas) for one in attempts]
+    return SpectrumSolution(
+        table=_table(problem, request, curves),
+        model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
+        error=max(one.error for one in attempts),
+    )
+
+
+def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
+    """Transfer functions of one order over the band of the spectrum (collective)."""
     lowest, highest = request.band
     low, high = problem.shared_band(lowest, highest)
     band = Band(lowest=low, highest=high)
@@ -62,7 +86,7 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
     def solve(resolution: Resolution) -> Attempt[Curves]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = 0.0, np.zeros_like(solver.model.mass)
-        incident = [0 if request.waves_from == "left" else len(solver.model.basin.scaled_layers.branches)]
+        incident = incident_places(solver.model, request.waves_from)[:1]
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
@@ -83,23 +107,25 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
             resolution=resolution,
         )
 
-    attempt = best_over_band(problem, band, solve)
-    table = _table(request, attempt.result)
-    return SpectrumSolution(table=table, model=attempt.result.solver.model, error=attempt.error)
+    return best_over_band(problem, band, solve)
 
 
-def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
-    model, omegas = curves.solver.model, curves.omegas
+def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
+    models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, motions = _with_drag(request, curves)
-    rows = _rows(model, request)
+    errors = np.max([one.errors for one in curves], axis=0)
+    rows = _rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
-    deviations = _deviation(model, curves, motions) @ np.abs(directions).T * np.abs(factors)
+    deviation = _deviation(models, errors, motions)
+    deviations = deviation @ np.abs(directions).T * np.abs(factors)
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)
-    back = np.linalg.inv(model.scale.turn * model.scale.lengths[:, None])
-    unit = model.basin.units.density * model.basin.units.gravity * model.basin.units.length**3
+    order, dofs = _order_of(models)
+    units = models[0].basin.units
+    back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
+    unit = units.density * units.gravity * units.volume * units.length / units.frequency
     return SpectrumTable(
         waves=request.words,
         waves_from=request.waves_from,
@@ -110,7 +136,7 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
         quantities=tuple(row.name for row in rows),
         transfer=transfer,
         response_density=np.abs(transfer) ** 2 * density[:, None],
-        relative_error=curves.errors,
+        relative_error=errors,
         responses=tuple(
             IrregularResponse(
                 quantity=row.name,
@@ -125,55 +151,128 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
             )
             for place, row in enumerate(rows)
         ),
-        dofs=model.scale.dofs,
-        mean_drift_force=_mean_drift(request, curves, motions),
-        equivalent_damping=back.T @ damping @ back * (unit / model.basin.units.frequency),
-        plates=tuple(_plates(model, request, curves, motions)),
+        dofs=dofs,
+        mean_drift_force=_mean_drift(problem, request, curves, motions),
+        mean_absorbed_power=_mean_power(request, curves, motions),
+        equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
+        # Sections alone have beams, and one order.
+        plates=tuple(_plates(request, curves[0], motions, deviation)),
     )
 
 
-def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n,
-    unknowns)."""
-    model, outside = curves.solver.model, curves.solver.model.outside
-    equations = [response.equations for response in curves.responses]
-    dynamic = np.array([one.dynamic for one in equations])
-    (place,) = curves.responses[0].incident
-    elevations = np.array([elevation_of(response) for response in curves.responses])
-    forces = np.array([one.forces[place] for one in equations]) / elevations[:, None]
-    scaled = curves.omegas / model.basin.units.frequency
+def _order_of(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...]]:
+    """Return the places of the motions of all orders, body by body, and these motions."""
+    dofs = [dof for model in models for dof in model.scale.dofs]
+    order = sorted(range(len(dofs)), key=lambda place: dofs[place].body or 1)
+    return order, tuple(dofs[place] for place in order)
+
+
+def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the damping in place of drag, dimensionless, and the motions of all orders with it per elevation, shape
+    (n, unknowns)."""
+    omegas, basin = curves[0].omegas, curves[0].solver.model.basin
+    outsides = [one.solver.model.outside for one in curves]
+    towards = direction_of(request.waves_from)
+    dynamic = np.array([
+        block_diag(*(response.equations.dynamic for response in responses))
+        for responses in zip(*(one.responses for one in curves), strict=True)
+    ])
+    forces = np.hstack([
+        [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses] for own in curves
+    ])
+    paths = np.hstack([one.paths for one in outsides])
+    scaled = omegas / basin.units.frequency
+    whole = replace(outsides[0], paths=paths, damping=block_diag(*(one.damping for one in outsides)))
 
     def moved(damping: np.ndarray) -> np.ndarray:
-        whole = dynamic - 1j * scaled[:, None, None] * damping
-        motions: np.ndarray = np.linalg.solve(whole, forces[..., None])[..., 0]
+        motions: np.ndarray = np.linalg.solve(dynamic - 1j * scaled[:, None, None] * damping, forces[..., None])[..., 0]
         return motions
 
     def speeds(damping: np.ndarray) -> np.ndarray:
-        velocities = scaled[:, None] * (moved(damping) @ outside.paths.T)
-        deviations: np.ndarray = np.sqrt(moments(request.spectrum, curves.omegas, velocities, (0,))[0])
-        return deviations / model.basin.units.length
+        velocities = scaled[:, None] * (moved(damping) @ paths.T)
+        deviations: np.ndarray = np.sqrt(moments(request.spectrum, omegas, velocities, (0,))[0])
+        return deviations / basin.units.length
 
-    damping = outside.equivalent_damping(speeds, IRREGULAR) if len(outside.drag) else np.zeros_like(model.mass)
+    damping = whole.equivalent_damping(speeds, IRREGULAR) if len(whole.drag) else np.zeros_like(whole.damping)
     return damping, moved(damping)
 
 
-def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -> float:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m.
+def _mean_drift(
+    problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray
+) -> float:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m or of solids N (collective).
+
+    Args:
+        problem: the open water.
+        request: the request.
+        curves: the transfer functions of the orders that move.
+        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
+    """
+    omegas, towards = curves[0].omegas, direction_of(request.waves_from)
+    starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
+    # Motions per c of the incident wave.
+    parts = [
+        [row[None] / one.per_elevation(towards)[0] for row, one in zip(motions[:, first:last], own.responses, strict=True)]
+        for own, first, last in zip(curves, starts, starts[1:], strict=False)
+    ]
+    if problem.tank.geometry.is_revolved:
+        if len(curves[0].responses[0].incidence.planes) > 1:
+            return nan
+        known = {
+            order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
+            for order, own, each in zip(problem.tank.orders, curves, parts, strict=True)
+        }
+        forces = _drift_of_orders(problem, request, omegas, known)
+    else:
+        units = curves[0].solver.model.basin.units
+        forces = units.density * units.gravity * np.array([
+            float(one.drift_force(part)[0] * abs(one.per_elevation(towards)[0]) ** 2)
+            for one, part in zip(curves[0].responses, parts[0], strict=True)
+        ])
+    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
+    roots = np.sqrt(np.abs(forces))[:, None]
+    return towards * 2.0 * float(moments(request.spectrum, omegas, roots, (0,))[0, 0])
+
+
+def _drift_of_orders(
+    problem: OpenWaterProblem, request: SpectrumRequest, omegas: np.ndarray, known: dict[int, np.ndarray]
+) -> np.ndarray:
+    """Drift force along the waves per square of their amplitude about an axis, N/m², shape (n,) (collective).
+
+    Orders are added until one scatters no more of the spectrum than `_DRIFT`.
+    """
+    waves: list[np.ndarray] = []
+    density = request.spectrum.density(omegas)
+    # Nothing moves in the others, and no other analysis asks for them.
+    fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _DRIFT))
+    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
+        order = len(waves)
+        if order in known:
+            waves.append(known[order][:, 0])
+            continue
+        own = _curves(fixed.of_order(order), request).result.at(omegas)
+        chosen = np.searchsorted(own.omegas, omegas)
+        waves.append(np.array([own.responses[place].partial_waves()[0, 0] for place in chosen]))
+    layers = two_layers(problem.tank)
+    wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
+    return drift_of_orders(problem.tank, omegas, wavenumbers, np.array(waves).T)
+
+
+def _mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:
+    """Mean power that the linear damping of attachments takes, ∫ ω² aᴴBa S dω, W/m or of solids W.
 
     Args:
         request: the request.
-        curves: the transfer functions.
+        curves: the transfer functions of the orders that move.
         motions: per elevation, with the damping in place of drag, shape (n, unknowns).
     """
-    units = curves.solver.model.basin.units
-    forces = [
-        float(one.drift_force((elevation_of(one) * motion)[None])[0]) / abs(elevation_of(one)) ** 2
-        for one, motion in zip(curves.responses, motions, strict=True)
-    ]
-    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
-    roots = np.sqrt(np.abs(forces))[:, None]
-    mean = 2.0 * units.density * units.gravity * float(moments(request.spectrum, curves.omegas, roots, (0,))[0, 0])
-    return mean if request.waves_from == "left" else -mean
+    models, omegas = [one.solver.model for one in curves], curves[0].omegas
+    damping = block_diag(*(model.outside.damping for model in models))
+    units = models[0].basin.units
+    values, vectors = np.linalg.eigh(damping)
+    speeds = omegas[:, None] * (motions @ vectors)
+    taken = float(moments(request.spectrum, omegas, speeds, (0,))[0] @ np.maximum(values, 0.0))
+    return units.density * units.gravity * units.volume / units.length / units.frequency * taken
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,21 +285,18 @@ class _Row:
     is_acceleration: bool = False
 
 
-def _rows(model: OpenModel, request: SpectrumRequest) -> list[_Row]:
+def _rows(models: list[OpenModel], request: SpectrumRequest) -> list[_Row]:
     """Motions of rigid bodies, and motions and accelerations of points."""
-    scale, elastic = model.scale, model.basin.tank.elastic
-    motions = scale.turn * scale.lengths[:, None] / model.basin.units.length
+    elastic, length = models[0].basin.tank.elastic, models[0].basin.units.length
+    motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
+    order, dofs = _order_of(models)
     rows = [
-        _Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motion.astype(complex))
-        for dof, motion in zip(scale.dofs, motions, strict=True)
+        _Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motions[place].astype(complex))
+        for place, dof in zip(order, dofs, strict=True)
         if (dof.body or 1) - 1 not in elastic
     ]
-    starts = np.cumsum([0, *(body.size for body in model.pencil.bodies)])
     for number, (index, point) in enumerate(request.points, 1):
-        moved = np.zeros((3, starts[-1]), dtype=complex)
-        moved[:, starts[index] : starts[index + 1]] = displacement_at(
-            model.basin, model.pencil.bodies[index], index, point
-        )
+        moved = np.hstack([_moved(model, index, point) for model in models])
         rows.append(_Row(name=f"point {number} up", unit="m", direction=moved[0]))
         if index not in elastic:
             rows.append(_Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
@@ -208,21 +304,29 @@ def _rows(model: OpenModel, request: SpectrumRequest) -> list[_Row]:
     return rows
 
 
-def _deviation(model: OpenModel, curves: Curves, motions: np.ndarray) -> np.ndarray:
+def _moved(model: OpenModel, index: int, point: tuple[float, float]) -> np.ndarray:
+    """Heave, sway and rotation of a point of a body by a unit of each body unknown, shape (3, unknowns)."""
+    starts = np.cumsum([0, *(body.size for body in model.pencil.bodies)])
+    moved = np.zeros((3, starts[-1]), dtype=complex)
+    moved[:, starts[index] : starts[index + 1]] = displacement_at(model.basin, model.pencil.bodies[index], index, point)
+    return moved
+
+
+def _deviation(models: list[OpenModel], errors: np.ndarray, motions: np.ndarray) -> np.ndarray:
     """Errors of the motions per elevation, shape (n, unknowns): relative to the largest of the same unit."""
-    turns = np.array([dof.is_rotation for dof in model.scale.dofs])
+    turns = np.array([dof.is_rotation for model in models for dof in model.scale.dofs])
     sizes = np.abs(motions)
     largest = np.stack([sizes[:, turns == turn].max(axis=1) for turn in turns], axis=1)
-    deviation: np.ndarray = curves.errors[:, None] * largest
+    deviation: np.ndarray = errors[:, None] * largest
     return deviation
 
 
 def _plates(
-    model: OpenModel, request: SpectrumRequest, curves: Curves, motions: np.ndarray
+    request: SpectrumRequest, curves: Curves, motions: np.ndarray, errors: np.ndarray
 ) -> Iterator[PlateStatistics]:
     """Deflection, bending moment and shear force along each beam."""
+    model = curves.solver.model
     first, units = 0, model.basin.units
-    errors = _deviation(model, curves, motions)
     for index, body in enumerate(model.pencil.bodies):
         own = slice(first, first + body.size)
         first += body.size

@@ -8,10 +8,12 @@ from functools import partial
 
 import numpy as np
 
+from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, as_made, count_below, lowest_beyond, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, as_made, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.physics.arrays import FloatArray
 

@@ -144,7 +144,7 @@ class PlanModel:
         self, _resolution: PlanResolution, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]
     ) -> np.ndarray:
         """See `ClassModel.errors`: by the liquid, the poles and the plates."""
-        gradients, missing = liquid_and_pole_errors(one.pencil, modes, self.tank.depth, _LOWEST)
+        gradients, missing = liquid_and_pole_errors(one.pencil, modes, self.tank.depth)
         return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, _plate_errors(plates, modes)])
 
     def refined(self, resolution: PlanResolution, errors: np.ndarray, tolerance: float) -> PlanResolution | None:

@@ -330,7 +330,7 @@ def stacked_pencil(
 ) -> CoupledPencil[PoleStack]:
     """As `plan_pencil`, in the potentials of all poles: A is block diagonal, and the inertia of its sum with K is had.
 
-    It is made to be counted in, and its own solver is that of one process.
+    It is made to be counted in, and has no solver of its own.
     """
     loads, water = _blocks(space, plates, waves=waves)
     stiffness, mass = as_sparse(space.stiffness), as_sparse(space.mass)
@@ -350,7 +350,7 @@ def stacked_pencil(
         if water is not None
         else [],
         laplace=as_matrix(laplace),
-        solver=PoleOperator(liquid=PlanLiquid(space=space, poles=poles), comm=MPI.COMM_SELF),
+        solver=PoleOperator(liquid=PlanLiquid(space=space, poles=poles), comm=MPI.COMM_SELF, idle=True),
         closed=(0,) if space.closed else (),
     )
 

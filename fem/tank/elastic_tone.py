@@ -9,10 +9,11 @@ surface, is always a single mode.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 
@@ -55,7 +56,19 @@ class ElasticTone:
         return not self.is_shared or self.participation >= LEAST_OF_ONE_MODE
 
 
-def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.ndarray:
+class Amplitudes(Protocol):
+    """What is asked of modes, as of `fem.modes.ModeSet`."""
+
+    @property
+    def eigenvalues(self) -> np.ndarray:
+        """λ of all modes, ascending."""
+
+    @property
+    def elastic_amplitudes(self) -> np.ndarray:
+        """Body part of each mode at unit generalized mass, shape (modes, body unknowns)."""
+
+
+def participations(modes: Amplitudes, bodies: tuple[Body, ...], body: int) -> np.ndarray:
     """Return pₙ of a beam's first dry mode, shape (modes,)."""
     first = bodies[body].dofs.index(FIRST_ELASTIC)
     position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
@@ -65,7 +78,7 @@ def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.nd
 
 
 def elastic_tone(
-    modes: ModeSet, bodies: tuple[Body, ...], body: int, *, pressure_release: float | None = None
+    modes: Amplitudes, bodies: tuple[Body, ...], body: int, *, pressure_release: float | None = None
 ) -> ElasticTone:
     """Return the mode of largest participation.
 
@@ -89,7 +102,7 @@ def elastic_tone(
     )
 
 
-def _reaches_past(modes: ModeSet, parts: np.ndarray, tone: float | None) -> bool:
+def _reaches_past(modes: Amplitudes, parts: np.ndarray, tone: float | None) -> bool:
     """Whether the last fifth of the modes lies above a pressure-release tone, with less than half the largest part.
 
     Participations that decrease there with less than half of the energy found are not those above the tone.

@@ -11,7 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body, LiquidSurface

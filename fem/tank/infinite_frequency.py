@@ -1,6 +1,7 @@
 """The infinite-frequency limit of a tank: ψ = 0 on an open top, the pressure continuous across interfaces, no waves.
 
-It has a mesh of its own: without refinement for waves, but with stronger grading at tips. It gives the pressure-release
+It has a mesh of its own: without refinement for waves, but with stronger grading at tips; a single uniform beam needs
+none, see `released_beam`. It gives the pressure-release
 tones of beams: in a tank with waves the elastic energy of a stiff beam is spread over several modes, here it is in one
 mode, which depends smoothly on all parameters. It gives the added mass of floats beside fixed beams, by the Ritz method
 from below: M_a − M_a,h = ρ∫|∇(ψ − ψ_h)|², the energy error.
@@ -12,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from mpi4py import MPI
-from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.stopwatch import Report, Stopwatch
@@ -27,8 +27,9 @@ from hydroelastic.fem.tank.error_estimates import (
     joined_errors,
 )
 from hydroelastic.fem.tank.field_model import whole_bodies
-from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, extension, solve_parts
+from hydroelastic.fem.tank.field_solution import PartPencils, extension, solve_parts
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
+from hydroelastic.fem.tank.released_beam import ReleasedModes, released_modes
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
@@ -133,6 +134,11 @@ def infinite_frequency_limit(
     stage = "pressure release" if has_tones else "added mass"
 
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
+        if user_mesh is None and not has_added_mass:
+            with watch.stage(stage):
+                released = released_modes(tank, resolution.shapes[0])
+                if released is not None:
+                    return _released(tank, released, resolution, tolerance)
         with watch.stage(stage):
             mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
@@ -164,6 +170,23 @@ def infinite_frequency_limit(
     ).result
 
 
+def _released(
+    tank: Tank, modes: ReleasedModes, resolution: Resolution, tolerance: float
+) -> Attempt[InfiniteFrequencyLimit]:
+    """The limit of a single beam from its modes."""
+    found = elastic_tone(modes, modes.bodies, 0)
+    tone = None
+    if not _is_hidden(modes.eigenvalues, found, tolerance):
+        error = float(modes.errors.total[found.index])
+        tone = PressureReleaseTone(eigenvalue=float(modes.eigenvalues[found.index]), error=error)
+    return Attempt(
+        result=InfiniteFrequencyLimit(tones=(tone,), eigenvalues=tuple(map(float, modes.eigenvalues))),
+        causes=modes.errors.of(found.index),
+        resolution=resolution,
+        missing=int(tone is None),
+    )
+
+
 def _with_tones(
     limit: InfiniteFrequencyLimit,
     mesh: TankMesh,
@@ -180,7 +203,7 @@ def _with_tones(
         if all(tone.certain for tone in found) or len(field.modes.eigenvalues) < count:
             break
         count *= 2
-    seen = [tone.certain and not _is_hidden(field, tone, tolerance) for tone in found]
+    seen = [tone.certain and not _is_hidden(field.modes.eigenvalues, tone, tolerance) for tone in found]
     indices = sorted({tone.index for tone, is_seen in zip(found, seen, strict=True) if is_seen})
     modes = [field.modes.completed(index) for index in indices]
     causes = frequency_errors(field, modes, field.parts_of(indices), resolution, tank, infinite_frequency=True)
@@ -195,9 +218,8 @@ def _with_tones(
     ), causes
 
 
-def _is_hidden(field: FieldSolution, tone: ElasticTone, tolerance: float) -> bool:
+def _is_hidden(values: np.ndarray, tone: ElasticTone, tolerance: float) -> bool:
     """Whether a beam is rigid to double precision: its tone is lost in the rounding of the lowest mode."""
-    values = field.modes.eigenvalues
     return bool(ROUNDING_OF_SPREAD * values[tone.index] > tolerance * values[0])
 
 
@@ -220,6 +242,8 @@ def _added_mass(
         diagonal = np.diag(added)[relevant]
         causes.append(added_mass_errors(pencil.liquid, own, diagonal, tank, resolution, half=parity is not None))
     errors = joined_errors(causes)
+    from scipy.linalg import block_diag  # slow to import
+
     turns = block_diag(*(bodies[index].motions for index in tank.rigid))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
     return InfiniteFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=errors.largest_total), errors

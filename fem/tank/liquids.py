@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from mpi4py import MPI
 
-from hydroelastic.fem.liquid_pencil import liquid_answer
+from hydroelastic.fem.liquid_pencil import answered
 from hydroelastic.fem.pencil import with_bodies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
@@ -105,8 +105,7 @@ class SharedLiquids(Liquids):
             self._pencils[key] = {
                 parity: replace(
                     pencil,
-                    answer=pencil.answer
-                    or liquid_answer(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
+                    answer=pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
                 )
                 for parity, pencil in made.items()
             }

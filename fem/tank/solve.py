@@ -324,9 +324,17 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
         tolerance: as that of `solve_tank`.
         modes: the same.
     """
-    solved = [solve_tank(tank, tolerance=tolerance, modes=modes) for tank in tanks]
+    scaled = [tank.scaled() for tank in tanks]
     limits = [
-        infinite_frequency_resolution(one.tank, workable_tolerance(tolerance, one.tank.depth), expected_tones(one.tank))
-        for one in solved
+        infinite_frequency_resolution(tank, workable_tolerance(tolerance, tank.depth), expected_tones(tank))
+        for tank in scaled
     ]
-    return SharedLiquids(of_field=finest([one.resolution for one in solved]), of_limit=finest(limits))
+    fields = [
+        initial_resolution(tank, tolerance, modes=modes, tones=expected_tones(tank), motions=ends_of_motions(tank))
+        for tank in scaled
+    ]
+    liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
+    # What is refined for one of them is refined for all.
+    solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
+    liquids.of_field = finest([one.resolution for one in solved])
+    return liquids

@@ -10,7 +10,8 @@ trapezoidal rule in ln |p|
 
     K(t) = Re Σ cₖ e^{pₖt},      pₖ = |pₖ| e^{iθ},      cₖ = −i (h/π) pₖ K̂(pₖ),
 
-with an error e^{−2πδ/h} in a and b where K̂ is analytic within an angle δ of the ray. The exponentials are states of
+with an error e^{−2πδ/h} in a and b where K̂ is analytic within an angle δ of the ray. Poles of K̂ before it add
+exponentials with twice their residues. The exponentials are states of
 a linear system, and K(t) = 0 before t = 0 by construction. K̂ ~ C/p for p → ∞, C = K(0), has two exponentials of its
 own, C (2 e^{−2βt} − e^{−βt}) with the transform Cp/((p + β)(p + 2β)), so that what is left is negligible beyond both
 ends of the ray.
@@ -82,7 +83,15 @@ def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floa
 
 
 def memory_on_ray(
-    beyond_limit: Complexes, limit: Floats, radii: Floats, angle: float, *, start: Floats, quickest: float
+    beyond_limit: Complexes,
+    limit: Floats,
+    radii: Floats,
+    angle: float,
+    *,
+    start: Floats,
+    quickest: float,
+    poles: Complexes,
+    residues: Complexes,
 ) -> RadiationMemory:
     """Return the memory of H along a ray.
 
@@ -93,6 +102,8 @@ def memory_on_ray(
         angle: δ, rad.
         start: C = lim p K̂ for p → ∞, shape (m, m).
         quickest: β, 1/s, about the highest frequency of the bodies.
+        poles: p of the resonances of the water between the imaginary axis and the ray, Im p > 0, shape (r,).
+        residues: twice the residues of K̂ there, shape (r, m, m).
     """
     rates = radii * np.exp(1j * (0.5 * pi + angle))
     along = rates[:, None, None]
@@ -101,6 +112,6 @@ def memory_on_ray(
     step = np.log(radii[1] / radii[0])
     return RadiationMemory(
         infinite_frequency_added_mass=limit,
-        rates=np.append(rates, [-quickest, -2.0 * quickest]),
-        weights=np.concatenate([-1j * step / pi * along * rest, [-start, 2.0 * start]]),
+        rates=np.concatenate([rates, [-quickest, -2.0 * quickest], poles]),
+        weights=np.concatenate([-1j * step / pi * along * rest, [-start, 2.0 * start], residues]),
     )

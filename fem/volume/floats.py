@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body
@@ -38,8 +40,16 @@ def float_body(solid: SolidFloat, name: str, parity: ClassParity) -> Body:
     motions = tuple(solid.motions[place] for place in chosen)
     parities: tuple[Parity, ...] = tuple("antisymmetric" if _ODD[motion][0] else "symmetric" for motion in motions)
 
+    inertia = solid.inertia()[chosen]
+    turn = _principal(solid.stiffness()[np.ix_(chosen, chosen)], inertia)
+
     def shape(points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
-        outwards: NDArray[np.float64] = (solid.displacement(motions[number], points) * normals).sum(axis=0)
+        displacements = (
+            factor * solid.displacement(motion, points)
+            for factor, motion in zip(turn[:, number], motions, strict=True)
+            if factor
+        )
+        outwards: NDArray[np.float64] = (sum(displacements, np.zeros_like(points)) * normals).sum(axis=0)
         return outwards
 
     return Body(
@@ -48,8 +58,25 @@ def float_body(solid: SolidFloat, name: str, parity: ClassParity) -> Body:
         wavenumber=0.0,
         dofs=tuple(map(Dof, motions)),
         parities=parities,
-        stiffness=np.asarray(solid.stiffness()[chosen], dtype=np.float64),
+        stiffness=np.einsum("im,ij,jm->m", turn, solid.stiffness()[np.ix_(chosen, chosen)], turn),
         bending_stiffness=np.zeros(len(motions)),
-        mass=np.diag(solid.inertia()[chosen]),
-        motions=np.eye(len(motions)),
+        mass=np.diag(np.einsum("im,i,im->m", turn, inertia, turn)),
+        motions=turn,
     )
+
+
+def _principal(stiffness: NDArray[np.float64], inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Motions that neither stiffness nor inertia couples, as columns in the given ones.
+
+    Those are the motions of the float alone, without liquid, under its hydrostatic stiffness; each is in the place of
+    the one with the largest part of its kinetic energy.
+    """
+    turn = np.eye(len(inertia))
+    coupled = np.flatnonzero(np.abs(stiffness - np.diag(np.diag(stiffness))).any(axis=1))
+    if len(coupled):
+        _, vectors = eigh(stiffness[np.ix_(coupled, coupled)], np.diag(inertia[coupled]))
+        energies = vectors**2 * inertia[coupled, None]
+        _, order = linear_sum_assignment(energies, maximize=True)
+        vectors = vectors[:, order]
+        turn[np.ix_(coupled, coupled)] = vectors / np.diag(vectors)
+    return turn

@@ -6,28 +6,31 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
-from hydroelastic.fem.liquid import LiquidSpace, liquid_space
+from hydroelastic.fem.liquid import ONE_LIQUID, Layer, LiquidSpace, liquid_space
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
+from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.fem.volume.floats import float_body
 from hydroelastic.fem.volume.matrices import volume_matrices
-from hydroelastic.fem.volume.pencil import SolverOf, moving_water, volume_pencil
+from hydroelastic.fem.volume.pencil import SolverOf, moving_surfaces, volume_pencil
 from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.meshes.volume import MIRRORS
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import FilePlan
+from hydroelastic.physics.obstacles import VerticalBaffle, mirrored_outline
 from hydroelastic.physics.plate import Strip
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 # A float this close to a plane of symmetry, in units of the tank, is in it.
-_MIDDLE = 1e-9
+_MIDDLE = 1e-7
 
 
 def volume_mirrors(tank: VolumeTank) -> Mirrors:
@@ -39,16 +42,46 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
         for plate in tank.plates
     )
     along, across = (
-        mirror
-        if mirror is not None and all(abs(one.position[axis] - mirror) < _MIDDLE for one in tank.floats)
-        else None
+        mirror if mirror is not None and all(_is_in_plane(one, axis, mirror) for one in tank.floats) else None
         for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
+    )
+    along, across = (
+        mirror if mirror is not None and _are_symmetric(tank, axis, mirror) else None
+        for axis, mirror in enumerate((along, across))
     )
     if isinstance(tank.bed, SlopingBed):
         along, across = (
             None if slope else mirror for mirror, slope in zip((along, across), tank.bed.slope, strict=True)
         )
     return along, across
+
+
+def _is_in_plane(solid: SolidFloat, axis: int, middle: float) -> bool:
+    """Whether a plane divides a float into halves that are alike."""
+    alike = solid.hull is None or solid.hull.symmetric[axis]
+    return alike and abs(solid.position[axis] - middle) < _MIDDLE
+
+
+def _are_symmetric(tank: VolumeTank, axis: int, middle: float) -> bool:
+    """Whether a plane through the middle has as many columns and baffles on both sides, and no baffle in it."""
+    columns = {mirrored_outline(mirrored_outline(one, axis, middle), axis, middle) for one in tank.columns}
+    baffles = {one.mirrored(axis, middle).mirrored(axis, middle) for one in tank.baffles}
+    return (
+        {mirrored_outline(one, axis, middle) for one in columns} == columns
+        and {one.mirrored(axis, middle) for one in baffles} == baffles
+        and not any(
+            isinstance(one, VerticalBaffle) and abs(one.start[axis] - middle) + abs(one.end[axis] - middle) < _MIDDLE
+            for one in baffles
+        )
+    )
+
+
+def _layers(tank: VolumeTank, mesh: TankMesh) -> tuple[Layer, ...]:
+    """The liquids from the bottom up, or the parts of one that baffles divide."""
+    if tank.lower is not None:
+        return Layer(name=LOWER_LIQUID, density=tank.lower.density), Layer(name=UPPER_LIQUID, density=1.0)
+    parts = tuple(Layer(name=name, density=1.0) for name in mesh.cell_names if name != LIQUID)
+    return parts or ONE_LIQUID
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,15 +109,15 @@ class VolumeModel:
     def liquid(self) -> LiquidSpace:
         """The space of ψ that all symmetries share (collective)."""
         zero = (FREE_SURFACE,) if self.tank.top == "pressure_release" else ()
-        return liquid_space(self.mesh, self.resolution.degree, zero)
+        return liquid_space(self.mesh, self.resolution.degree, zero, _layers(self.tank, self.mesh))
 
     @cached_property
     def _matrices(self) -> LiquidMatrices:
-        return volume_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
+        return volume_matrices(self.liquid, self._surfaces, self.images)
 
-    @property
-    def _waves(self) -> bool:
-        return self.tank.top == "free"
+    @cached_property
+    def _surfaces(self) -> tuple[LiquidSurface, ...]:
+        return moving_surfaces(self.liquid, waves=self.tank.top == "free")
 
     @property
     def parities(self) -> tuple[ClassParity, ...]:
@@ -111,7 +144,7 @@ class VolumeModel:
             for number, solid in enumerate(self.tank.floats, len(self.tank.plates) + 1)
         )
         return volume_pencil(
-            liquid, self._matrices, self.plates[parity], floats, solver_of, waves=self._waves, images=self.images
+            liquid, self._matrices, self.plates[parity], floats, solver_of, surfaces=self._surfaces, images=self.images
         )
 
     def pencils(self, solver_of: SolverOf) -> dict[ClassParity, CoupledPencil]:

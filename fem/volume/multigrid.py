@@ -14,7 +14,7 @@ from dolfinx.fem import petsc as fem_petsc
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, liquid_space
+from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, closed_layers, liquid_space
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.volume.matrices import volume_laplace
 
@@ -59,7 +59,7 @@ class MultigridSolver:
         Args:
             liquid: space of ψ.
             matrix: A on all unknowns; it is not changed.
-            closed: the layers of constant volume; one, or none where ψ = 0 on a surface.
+            closed: the layers of constant volume.
             images: the factor of A to ∫∇ψ·∇q.
             tolerance: of the solution, relative, in the energy norm.
         """
@@ -68,7 +68,7 @@ class MultigridSolver:
         self._comm = matrix.comm.tompi4py()
         spaces = [liquid]
         while spaces[0].degree > 1:
-            spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential))
+            spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential, liquid.layers))
         self._fixed = liquid.zero_dofs()
         matrices = [volume_laplace(space, images) for space in spaces[:-1]]
         matrices.append(matrix.copy() if liquid.zero_potential else matrix)
@@ -111,17 +111,23 @@ class MultigridSolver:
         self._load = matrix.createVecLeft()
 
     def _constrain(self, space: LiquidSpace, matrix: PETSc.Mat) -> None:
-        """Tell the constant as null space, or take out the unknowns with ψ = 0."""
-        if self._closed:
-            matrix.setNullSpace(PETSc.NullSpace().create(constant=True, comm=matrix.comm))
-            return
-        rows = (space.zero_dofs() + matrix.getOwnershipRange()[0]).astype(PETSc.IntType)
-        matrix.zeroRowsColumns(rows, diag=1.0)
+        """Tell the constants of closed layers as null space, and take out the unknowns with ψ = 0."""
+        if space.zero_potential:
+            rows = (space.zero_dofs() + matrix.getOwnershipRange()[0]).astype(PETSc.IntType)
+            matrix.zeroRowsColumns(rows, diag=1.0)
+        constants = []
+        for layer in closed_layers(space):
+            constant = matrix.createVecLeft()
+            constant.array[space.owned_layer_of == layer] = 1.0
+            constant.normalize()
+            constants.append(constant)
+        if constants:
+            matrix.setNullSpace(PETSc.NullSpace().create(constant=False, vectors=constants, comm=matrix.comm))
 
     def _interpolation(self, lower: LiquidSpace, upper: LiquidSpace) -> PETSc.Mat:
         matrix = fem_petsc.interpolation_matrix(lower.space, upper.space)
         matrix.assemble()
-        if not self._closed:
+        if upper.zero_potential:
             kept = []
             for space, vector in zip((upper, lower), reversed(matrix.createVecs()), strict=True):
                 vector.set(1.0)

@@ -20,16 +20,29 @@ from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.volume.loads import plate_loads
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
 
 SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], LiquidOperator]
 """Makes A⁺ from the space, A, the layers of constant volume, and the number of parts that are alike."""
 
 
-def moving_water(liquid: LiquidSpace, *, waves: bool) -> tuple[LiquidSurface, ...]:
-    """Return the water beside the plates, if there is any that moves under gravity."""
-    there = waves and FREE_SURFACE in liquid.tank.facet_names
-    return (LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if there else ()
+def moving_surfaces(liquid: LiquidSpace, *, waves: bool) -> tuple[LiquidSurface, ...]:
+    """Return the surfaces that move under gravity: water beside the bodies, of each part of the liquid, and the
+    interface of two liquids (collective).
+
+    Args:
+        liquid: space of ψ.
+        waves: whether the water moves.
+    """
+    names = liquid.tank.facet_names
+    found = []
+    if INTERFACE in names:
+        found.append(LiquidSurface(surface=INTERFACE, gravity=1.0, below=0, above=1))
+    if waves and FREE_SURFACE in names:
+        for layer in range(len(liquid.layers)):
+            if liquid.tank.mesh.comm.allreduce(len(liquid.surface_dofs((FREE_SURFACE,), layer))):
+                found.append(LiquidSurface(surface=FREE_SURFACE, gravity=1.0, below=layer))
+    return tuple(found)
 
 
 def volume_pencil(
@@ -39,7 +52,7 @@ def volume_pencil(
     floats: tuple[Body, ...],
     solver_of: SolverOf,
     *,
-    waves: bool,
+    surfaces: tuple[LiquidSurface, ...],
     images: int = 1,
 ) -> CoupledPencil[LiquidSpace] | None:
     """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective).
@@ -50,17 +63,16 @@ def volume_pencil(
         plates: those on the still surface.
         floats: those with draught, after them.
         solver_of: makes the solver of Laplace's equation.
-        waves: whether the water beside the plates moves under gravity.
+        surfaces: those that move under gravity, see `moving_surfaces`.
         images: number of parts that are alike.
     """
-    surfaces = moving_water(liquid, waves=waves)
     moving = [plate for plate in plates if plate.body.size]
     rigid = [body for body in floats if body.size]
     bodies = (*(plate.body for plate in moving), *rigid)
     if not bodies and not surfaces:
         return None
     layers = closed_layers(liquid)
-    names = (*(body.surface for body in bodies), *(surface.surface for surface in surfaces))
+    names = tuple(dict.fromkeys((*(body.surface for body in bodies), *(surface.surface for surface in surfaces))))
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     loads = chain.from_iterable(

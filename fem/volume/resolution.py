@@ -15,6 +15,7 @@ from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.volume import VolumeSizes
 from hydroelastic.physics.level_tank import FilePlan
+from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
 
 LARGEST_MESH = 100_000
@@ -29,6 +30,8 @@ _LARGEST, _SMALLEST = 0.35, 5e-4
 _OF_WAVES = {2: 1e-3, 4: 1.2e-7}
 _OF_EDGES, _EDGE_ORDER = {2: 0.2, 4: 0.05}, {2: 1.5, 4: 2.0}
 _OF_CORNERS, _CORNER_ORDER = {2: 0.12, 4: 0.05}, 4.0 / 3.0
+# At the tips of baffles over h, as ψ ~ r^(1/2).
+_OF_TIPS = 0.02
 # Cells of edge h in a volume over that over h³, and growing from edges of plates over their length over h; measured.
 _CELLS_OF_VOLUME, _CELLS_OF_EDGES = 8.5, 37.0
 _MOST_REFINEMENTS = 4
@@ -124,12 +127,14 @@ def volume_resolution(tank: VolumeTank, tolerance: float, count: int, mirrors: M
     """Return the first resolution for some modes of a dimensionless tank.
 
     It has degree 4, and 6 for small errors. Where that needs too many unknowns for a factorization, and those of degree
-    2 cost less, because edges and not waves ask for small cells or the error may be large, it is degree 2.
+    2 cost less, because edges and not waves ask for small cells or the error may be large, it is degree 2. Baffles, an
+    interface and cells of a file keep the higher one.
     """
     first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count)
     second = _of_degree(2, tank, tolerance, count)
     many, few = (one.degree**3 / 6.0 * expected_cells(tank, one.sizes, mirrors) for one in (first, second))
-    return second if many > max(few / _DEARER, DIRECT_UNKNOWNS) and not _is_of_mesh(tank) else first
+    takes_second = not (tank.baffles or tank.interface or _is_of_mesh(tank))
+    return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
 
 
 def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
@@ -138,15 +143,18 @@ def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> V
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
-    order = _CORNER_ORDER if tank.floats else _EDGE_ORDER[kind]
-    edge = (0.5 * tolerance / (_OF_CORNERS if tank.floats else _OF_EDGES)[kind]) ** (1.0 / order)
+    corners = tank.floats or any(isinstance(outline, Rectangle) for outline in tank.columns)
+    order = 1.0 if tank.baffles else _CORNER_ORDER if corners else _EDGE_ORDER[kind]
+    part = _OF_TIPS if tank.baffles else (_OF_CORNERS if corners else _OF_EDGES)[kind]
+    edge = (0.5 * tolerance / part) ** (1.0 / order)
     return VolumeResolution(
         degree=degree,
         order=order,
         sizes=VolumeSizes(
             edge=min(max(edge, 4.0 * _SMALLEST), bulk),
             bulk=bulk,
-            geometry=4,
+            # Between nodes, curved cells would follow no plane triangle of a hull.
+            geometry=1 if any(one.hull and one.hull.is_triangulated for one in tank.floats) else 4,
             around=16,
         ),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),

@@ -9,15 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
-from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
+
+if TYPE_CHECKING:
+    from hydroelastic.modal.beam.jointed_modes import JointedModes
 
 Array = NDArray[np.float64]
 
@@ -120,14 +123,20 @@ class _AllAtOnce:
 
 def uniform_mass_modes(beam: Beam, count: int) -> JointedModes:
     """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
-    return jointed_modes(beam.with_uniform_mass(), count)
+    return _jointed_modes(beam.with_uniform_mass(), count)
+
+
+def _jointed_modes(beam: Beam, count: int) -> JointedModes:
+    from hydroelastic.modal.beam.jointed_modes import jointed_modes  # SciPy's linear algebra is slow to import
+
+    return jointed_modes(beam, count)
 
 
 def first_dry_eigenvalue(beam: Beam) -> float:
     """λ of the first elastic mode of a beam in vacuum."""
     if not beam.is_uniform:
         rigid = 2 + len(beam.hinges)
-        return float(jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
+        return float(_jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
     shapes = beam_shapes(beam, 3)
     first = shapes.dofs.index(FIRST_ELASTIC)
     return float(shapes.bending[first] / shapes.mass[first, first])

@@ -86,6 +86,11 @@ class FloatingBeam:
         return abs(self.left_gap - self.right_gap) <= _ROUNDING * self.tank_length
 
     @property
+    def touches_wall(self) -> bool:
+        """Whether a tip is at a wall."""
+        return self.left_gap == 0.0 or self.right_gap == 0.0
+
+    @property
     def covers_tank(self) -> bool:
         """Whether no free surface is left."""
         return self.left_gap == 0.0 and self.right_gap == 0.0

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import functools
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal.beam.dry_modes import free_free_shape
+from hydroelastic.modal.beam.dry_modes import free_free_shapes
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.physics.arrays import FloatArray
@@ -18,6 +19,20 @@ MOST_TERMS = 420
 
 _DIGITS = 34.0
 _MOST_DEPTH_TERMS = 40_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReleasedShapes:
+    """Dry shapes with ψ = 0 on the water around the beam, per length of it for ∫W² dz = l, kg/m².
+
+    Attributes:
+        added_mass: symmetric positive definite, shape (shapes, shapes).
+        last_terms: the part of it that the last eighth of the expansion of ψ adds, of the same shape: more than what
+            all omitted terms would add, for they decrease exponentially.
+    """
+
+    added_mass: FloatArray
+    last_terms: FloatArray
 
 
 def pressure_release_added_mass(beam: FloatingBeam, count: int, terms: int | None = None) -> FloatArray:
@@ -47,32 +62,38 @@ def pressure_release_added_mass(beam: FloatingBeam, count: int, terms: int | Non
 
     Source: theory of the aquarium, docs, § 2 (psi0) and § 3 (method D).
     """
+    return released_shapes(beam, count, terms).added_mass
+
+
+def released_shapes(
+    beam: FloatingBeam, count: int, terms: int | None = None, *, most: int = MOST_TERMS
+) -> ReleasedShapes:
+    """As `pressure_release_added_mass`, with the part of the last terms; refused where ``most`` of them are too few."""
     if beam.covers_tank:
         raise NoEstimateError("no surface is free where the pressure could be released")
     wanted = _terms_needed(beam, count) if terms is None else terms
-    touching = beam.left_gap == 0 or beam.right_gap == 0
-    longest = 2 * wanted if touching else wanted
-    if longest > MOST_TERMS:
-        raise NoEstimateError(
-            f"{longest} terms would be needed for the gap or the depth; at most {MOST_TERMS} are used"
-        )
+    longest = 2 * wanted if beam.touches_wall else wanted
+    if longest > most:
+        raise NoEstimateError(f"{longest} terms would be needed for the gap or the depth; at most {most} are used")
     if _depth_terms(beam) > _MOST_DEPTH_TERMS:
         raise NoEstimateError("the water is too shallow against the length of the tank for the cosine series")
-    added = _dimensionless_added_mass(beam.dimensionless(), count, wanted)
-    if touching:
-        finer = _dimensionless_added_mass(beam.dimensionless(), count, 2 * wanted)
+    # What does not touch the liquid is left out of the key of the cache.
+    alike = replace(beam.dimensionless(), flexural_rigidity=1.0, mass_per_length=1.0, hydrostatic=True)
+    added, last = dimensionless_added_mass(alike, count, wanted)
+    if beam.touches_wall:
+        finer, last = dimensionless_added_mass(alike, count, 2 * wanted)
         added = finer + (finer - added) / 15
-    return beam.density * beam.length * added
+    unit = beam.density * beam.length
+    return ReleasedShapes(added_mass=unit * added, last_terms=unit * last)
 
 
 def _terms_needed(beam: FloatingBeam, count: int) -> int:
     """Bernstein-ellipse estimate: the nearest singularities are the depth image and the wall image of the beam."""
-    touching = beam.left_gap == 0 or beam.right_gap == 0
-    half = beam.length if touching else beam.length / 2
+    half = beam.length if beam.touches_wall else beam.length / 2
     gaps = [gap for gap in (beam.left_gap, beam.right_gap) if gap > 0]
     image = 2 * min(gaps) / half
     rate = min(math.asinh(2 * beam.depth / half), math.acosh(1 + image))
-    return math.ceil(_DIGITS / (2 * rate) + 12 + 1.7 * count) + (32 if touching else 0)
+    return math.ceil(_DIGITS / (2 * rate) + 12 + 1.7 * count) + (32 if beam.touches_wall else 0)
 
 
 def _depth_terms(beam: FloatingBeam) -> int:
@@ -82,13 +103,14 @@ def _depth_terms(beam: FloatingBeam) -> int:
 
 def _mirrored(beam: FloatingBeam) -> tuple[float, float, bool]:
     """Return centre and half-width of the expansion interval, and whether it is doubled across a wall at x = 0."""
-    if beam.left_gap == 0 or beam.right_gap == 0:
+    if beam.touches_wall:
         return 0.0, beam.length, True
     return beam.start + beam.length / 2, beam.length / 2, False
 
 
 @functools.lru_cache(maxsize=4)
-def _dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> FloatArray:
+def dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> tuple[FloatArray, FloatArray]:
+    """Return the `ReleasedShapes` of a dimensionless problem; EI, m and hydrostatics do not enter."""
     centre, half, doubled = _mirrored(beam)
     orders = np.arange(0, 2 * terms, 2) if doubled else np.arange(terms)
     points = int(orders[-1]) + 33
@@ -97,22 +119,27 @@ def _dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> Flo
     expansion = np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * (np.pi / (points + 1))
     share = 0.5 if doubled else 1.0
     kernel = _regular_kernel(beam, centre + half * np.cos(angle), doubled)
-    system = share * np.diag((orders + 1) * np.pi / 2) + (share * half) ** 2 * expansion @ kernel @ expansion.T
-    load = half * _loads(beam, count, orders, doubled)
-    added = load.T @ np.linalg.solve(system, load)
-    return (added + added.T) / 2
+    weights = share * (orders + 1) * np.pi / 2
+    system = np.diag(weights) + (share * half) ** 2 * expansion @ kernel @ expansion.T
+    if doubled:
+        load = half * _half_loads(beam, count, orders)
+    else:
+        # The rule has points enough for the shapes too, as the number of terms grows with theirs.
+        load = half * expansion @ free_free_shapes(count, (1 + np.cos(angle)) / 2).T
+    coefficients = np.linalg.solve(system, load)
+    added = load.T @ coefficients
+    last = slice(-max(2, terms // 8), None)
+    return (added + added.T) / 2, coefficients[last].T @ (weights[last, None] * coefficients[last])
 
 
-def _loads(beam: FloatingBeam, count: int, orders: np.ndarray, doubled: bool) -> FloatArray:
-    """Return ∫ W_i √(1−t²) U_j dt over the beam, shape (terms, count), by Gauss–Legendre points in the angle."""
+def _half_loads(beam: FloatingBeam, count: int, orders: np.ndarray) -> FloatArray:
+    """Return ∫ W_i √(1−t²) U_j dt over a beam at a wall, shape (terms, count), by Gauss–Legendre points in the
+    angle."""
     nodes, weights = leggauss(2 * len(orders) + 2 * count + 32)
-    top = np.pi / 2 if doubled else np.pi
-    angle = top * (nodes + 1) / 2
+    angle = np.pi / 4 * (nodes + 1)
     t = np.cos(angle)
-    from_wall = t if beam.left_gap == 0 else 1 - t
-    s = from_wall if doubled else (1 + t) / 2
-    shapes = np.array([free_free_shape(index, s) for index in range(count)])
-    loads: FloatArray = (np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * weights * top / 2) @ shapes.T
+    shapes = free_free_shapes(count, t if beam.left_gap == 0 else 1 - t)
+    loads: FloatArray = (np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * weights * np.pi / 4) @ shapes.T
     return loads
 
 

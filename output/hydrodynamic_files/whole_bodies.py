@@ -2,8 +2,9 @@
 
 x along the waves, z upwards from the still level, x = 0 where the crest of the incident wave is at t = 0, time factor
 e^{−iωt}; motions surge, sway, heave, roll, pitch, yaw, rotations about the centre of gravity, right-handed. A section
-of some width has surge (its sway), heave and pitch (its roll, which is anticlockwise, with the opposite sign); what it
-does not model is zero.
+of some width has surge (its sway), heave and pitch (its roll, which is anticlockwise, with the opposite sign). A solid
+of revolution, whose pitch lifts its side of x > 0 too, has the same in the plane y = 0, and what it has there in
+surge and pitch it has in the plane x = 0 in sway and roll. What is not modelled is zero.
 """
 
 from __future__ import annotations
@@ -21,8 +22,9 @@ from hydroelastic.physics.tank import Tank
 
 MOTIONS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 
-# Place among the six motions, and sign, of each motion of a section.
-_OF_SECTION = {"sway": (0, 1.0), "heave": (2, 1.0), "roll": (4, -1.0)}
+# Place among the six motions, and sign, of each motion in the plane y = 0, and of those of solids in the plane x = 0.
+_ALONG = {"sway": (0, 1.0), "surge": (0, 1.0), "heave": (2, 1.0), "roll": (4, -1.0), "pitch": (4, -1.0)}
+_ACROSS = {"surge": (1, 1.0), "pitch": (3, 1.0)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,15 +109,15 @@ class WholeBodies:
         return self.froude_krylov_force + self.diffraction_force
 
 
-def whole_bodies_of_sections(
+def bodies_of_tables(
     tank: Tank,
     radiation: Sequence[RadiationTable],
     response: Sequence[ResponseTable],
     impulse_response: Sequence[ImpulseResponseTable],
     *,
-    width: float,
+    width: float = 1.0,
 ) -> WholeBodies:
-    """Return whole bodies, each a section of some width.
+    """Return whole bodies, each a section of some width or a solid of revolution.
 
     Args:
         tank: open water with one liquid and floats only.
@@ -123,21 +125,23 @@ def whole_bodies_of_sections(
             same frequency the first is taken.
         response: analyses of the response; those whose motions differ from those of radiation are left out.
         impulse_response: analyses of impulse responses; the first one is taken.
-        width: m.
+        width: of sections, m; 1 of solids.
     """
     count = 6 * len(tank.bodies)
     dofs = radiation[0].dofs
-    places = np.array([_place(dof) for dof in dofs])
-    signs = np.array([_OF_SECTION[dof.motion][1] for dof in dofs])
+    along, across = _Plane(dofs, _ALONG), _Plane(dofs, _ACROSS if tank.geometry.is_revolved else {})
 
     def matrix(values: np.ndarray) -> Floats:
         whole = np.zeros((*values.shape[:-2], count, count))
-        whole[..., places[:, None], places] = width * values * np.outer(signs, signs)
+        for plane in (across, along):
+            whole[..., plane.places[:, None], plane.places] = width * values[..., plane.own[:, None], plane.own] * (
+                np.outer(plane.signs, plane.signs)
+            )
         return whole
 
     def vector(values: np.ndarray, scale: float) -> Complexes:
         whole = np.zeros((*values.shape[:-1], count), dtype=complex)
-        whole[..., places] = scale * values * signs
+        whole[..., along.places] = scale * values * along.signs
         return whole
 
     rows = {float(omega): (table, row) for table in reversed(radiation) for row, omega in enumerate(table.omega)}
@@ -155,12 +159,12 @@ def whole_bodies_of_sections(
     if far is None and first is not None:
         far = matrix(first.infinite_frequency_added_mass)
     modelled = np.zeros(count, dtype=bool)
-    modelled[places] = True
+    modelled[[*along.places, *across.places]] = True
     return WholeBodies(
         density=tank.layers[0].density,
         gravity=tank.gravity,
         depth=tank.layers[0].depth,
-        bodies=tuple(_section(tank, index, width) for index in range(len(tank.bodies))),
+        bodies=tuple(_at_rest(tank, index, width) for index in range(len(tank.bodies))),
         modelled=modelled,
         omega=np.array(omegas),
         added_mass=matrix(stacked("added_mass")),
@@ -186,21 +190,26 @@ def whole_bodies_of_sections(
     )
 
 
-def _place(dof: Dof) -> int:
-    return 6 * ((dof.body or 1) - 1) + _OF_SECTION[dof.motion][0]
+class _Plane:
+    """The motions in a vertical plane: their indices `own` among all, their `places` among six of each body, `signs`."""
+
+    def __init__(self, dofs: tuple[Dof, ...], motions: dict[str, tuple[int, float]]) -> None:
+        self.own = np.array([place for place, dof in enumerate(dofs) if dof.motion in motions], dtype=int)
+        chosen = [dofs[place] for place in self.own]
+        self.places = np.array([6 * ((dof.body or 1) - 1) + motions[dof.motion][0] for dof in chosen], dtype=int)
+        self.signs = np.array([motions[dof.motion][1] for dof in chosen])
 
 
-def _section(tank: Tank, index: int, width: float) -> WholeBody:
+def _at_rest(tank: Tank, index: int, width: float) -> WholeBody:
     rest = tank.floats[index].hydrostatics
 
     def point(at: tuple[float, float]) -> tuple[float, float, float]:
         return at[0] - tank.phase_at, 0.0, at[1] - rest.level
 
-    left, right = rest.waterplane
     return WholeBody(
         name=f"body_{index + 1}",
         centre_of_gravity=point(rest.centre_of_mass),
         centre_of_buoyancy=point(rest.centroids[0]),
         volume=width * rest.areas[0],
-        waterplane_area=width * (right - left),
+        waterplane_area=width * rest.heave_stiffness / (tank.layers[0].density * tank.gravity),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import meshio
 import numpy as np
 from mpi4py import MPI
 
@@ -71,10 +70,10 @@ def write_surface(sample: SampledModes, file: Path) -> None:
         data[f"displacement_{name}"] = upwards.copy()
     points = np.column_stack([sample.points, np.zeros(len(sample.points))])
     cells = [("triangle", sample.triangles)]
-    write_vtu(file, meshio.Mesh(points, cells, point_data=data, cell_data={"plate": [sample.plate_of_triangles]}))
+    write_vtu(file, points, cells, data, {"plate": sample.plate_of_triangles})
 
 
 def write_volume(sample: SampledModes, file: Path) -> None:
     """Write ψ of each mode in the liquid."""
     data = {f"potential_{name}": potential for name, potential in zip(sample.names, sample.potentials, strict=True)}
-    write_vtu(file, meshio.Mesh(sample.volume_points, [sample.volume_cells], point_data=data))
+    write_vtu(file, sample.volume_points, [sample.volume_cells], data)

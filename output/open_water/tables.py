@@ -56,8 +56,8 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
     for decay in solution.decay:
         yield _decay(decay)
     for spectrum in SPECTRUM.of(solution):
-        yield from _spectrum(spectrum)
-    yield from sections_over_time(solution)
+        yield from _spectrum(spectrum, whole)
+    yield from sections_over_time(solution, whole)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -251,11 +251,13 @@ def _decay(table: DecayTable) -> Section:
     )
 
 
-def _spectrum(table: SpectrumTable) -> Iterator[Section]:
-    """Statistics of the responses to irregular waves, and of loads along beams."""
+def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
+    """Statistics of the responses to irregular waves, and of loads along beams, of whole solids or of sections."""
+    per = "" if whole else "/m"
+    power = f", mean power that damping takes: {table.mean_absorbed_power:.5g} W{per}"
     responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
     about = (
-        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
+        f"Mean drift force along x: {table.mean_drift_force:.4g} N{per}{power if table.mean_absorbed_power else ''}.",
         f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
         f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
         "peak lies between them: spectrum.csv.",

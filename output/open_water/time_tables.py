@@ -13,35 +13,39 @@ from hydroelastic.output.digits import number
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.shown_rows import largest, shown_rows
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
+from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section
+from hydroelastic.output.whole_units import of_whole_solids
 
 _MOST_MOTIONS = 4
 
 
-def sections_over_time(solution: Any) -> Iterator[Section]:
-    """Yield the tables of impulse responses and of motions in waves."""
+def sections_over_time(solution: Any, whole: bool) -> Iterator[Section]:
+    """Yield the tables of impulse responses and of motions in waves, of whole solids or per metre of width."""
     for impulse_response in solution.impulse_response:
-        yield _impulse_response(impulse_response)
+        yield _impulse_response(impulse_response, of_whole_solids(IMPULSE_RESPONSE) if whole else IMPULSE_RESPONSE)
     for motion in solution.motion:
         yield _motion(motion)
 
 
-def _impulse_response(table: ImpulseResponseTable) -> Section:
+def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
     """The diagonal of K; what it gives back in the frequency domain is a file."""
     shown, thinned = shown_rows(len(table.times), "times", "impulse_response.csv")
     columns = [
         column
-        for column in open_columns(IMPULSE_RESPONSE, table)
+        for column in open_columns(group, table)
         if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
     ]
+    added = group["infinite_frequency_added_mass"]
+    units = [(unit or "").replace(" ", "·") for unit in (added.unit, added.of_roll[-1])]
     far = ", ".join(
-        f"{dof.words} {number(float(value))} {'kg·m' if dof.is_rotation else 'kg/m'}"
+        f"{dof.words} {number(float(value))} {units[dof.is_rotation]}"
         for dof, value in zip(table.dofs, np.diag(table.infinite_frequency_added_mass), strict=True)
     )
     return Section(
         title="Impulse responses K of radiation",
         headings=headings_of(columns, "influenced_dof"),
-        rows=rows_of(IMPULSE_RESPONSE, columns, shown),
+        rows=rows_of(group, columns, shown),
         lines=(
             *thinned,
             f"Added mass at infinite frequency: {far}.",

@@ -24,4 +24,7 @@ class Export(SceneModel):
     formats: Annotated[tuple[Format, ...], Field(min_length=1), AfterValidator(_all_different)] = Field(
         description='"wamit" (.1, .3, .4, .hst), "bemio" (HDF5 of WEC-Sim), "nemoh" (tables), "capytaine" (NetCDF)'
     )
-    width: PositiveNumber = Field(description="width of the bodies, m, whose sections are solved per metre of width")
+    width: PositiveNumber | None = Field(
+        default=None,
+        description="width of the bodies, m, whose sections are solved per metre of width; none of solids of revolution",
+    )

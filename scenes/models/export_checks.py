@@ -32,8 +32,6 @@ def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
     )
     if not scene.is_open:
         yield problem_at(("export",), None, "a tank with walls has no waves", remedy="Leave it out")
-    elif scene.is_revolved:
-        yield problem_at(("export",), None, "the files are written for sections only, and the bodies are solids")
     elif scene.beams:
         yield problem_at(("export",), None, "the files are those of rigid bodies, and a beam is elastic")
     elif len(scene.layers) > 1:
@@ -46,7 +44,20 @@ def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
             remedy='Add an [[analysis]] of kind = "radiation"',
         )
     else:
+        yield from _width_is_that_of_sections(scene, scene.export.width)
         yield from _formats_are_possible(scene, scene.export.formats, omega)
+
+
+def _width_is_that_of_sections(scene: TankParts, width: float | None) -> Iterator[InitErrorDetails]:
+    if scene.is_revolved and width is not None:
+        yield problem_at(("export", "width"), width, "solids of revolution have none", remedy="Leave it out")
+    elif not scene.is_revolved and width is None:
+        yield problem_at(
+            ("export", "width"),
+            None,
+            "it is missing, and sections are solved per metre of width",
+            allowed="the width of the bodies, m",
+        )
 
 
 def _is_equally_spaced(values: Sequence[float]) -> bool:

@@ -12,26 +12,29 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
-from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.tank import ROUND_OFF
-from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, SOLID_FORMATS, LevelTankParts
+from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
     middle_of,
-    needs_volume,
     physical_outline,
     physical_plan,
     shape_file,
 )
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
-from hydroelastic.scenes.models.volume_floats import VolumeFloat
+from hydroelastic.scenes.models.tank_kinds import PLAN_KEYS
+from hydroelastic.scenes.models.volume_checks import (
+    LEAST_DEPTH,
+    columns_lie_in_the_tank,
+    floats_lie_in_the_tank,
+    liquids_are_layered,
+    shaped_beds_are_simple,
+    volumes_are_of_plates,
+)
 
 LEAST_INNER_RADIUS = 1e-3
 """Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
-
-LEAST_DEPTH = 0.05
-"""Part of the depth that a bed leaves: cells over a shallower one would be flat."""
 
 _Bounds: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
@@ -86,14 +89,6 @@ class LevelTankScene(LevelTankParts):
     def _parts_fit(self) -> LevelTankScene:
         require_fit(self, STAGES)
         return self
-
-
-def is_level_tank(document: dict[str, Any]) -> bool:
-    """Return whether a document of the kind "tank" is of three dimensions: by a key of its plan, or a plate."""
-    tank, bodies = document.get("tank"), document.get("body")
-    of_plan = isinstance(tank, dict) and any(key in tank for key in PLAN_KEYS)
-    plates = isinstance(bodies, list) and any(isinstance(one, dict) and one.get("kind") == "plate" for one in bodies)
-    return of_plan or plates
 
 
 def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -153,72 +148,11 @@ def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             yield problem_at(("tank", "shape"), str(tank.shape), str(error))
 
 
-def _volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    for index, body in enumerate(scene.body):
-        if needs_volume(scene) and body.kind == "beam":
-            yield problem_at(
-                ("body", index, "kind"),
-                body.kind,
-                "beams side by side need a tank with a level bed",
-                remedy='Take a plate, kind = "plate" with outline = "strip", in its place',
-            )
-
-
-def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    plan, depth = physical_plan(scene), scene.liquid[0].depth
-    middle, first = middle_of(plan), len(scene.plates)
-    if any(isinstance(body, VolumeFloat) for body in scene.body[:first]):
-        remedy = "Move it to the end of the scene"
-        place = next(index for index, body in enumerate(scene.body) if isinstance(body, VolumeFloat))
-        yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
-        return
-    bed = scene.tank.bed
-    if scene.floats and bed is not None and bed.slope is None:
-        yield problem_at(
-            ("tank", "bed"), None, "a bed through points would stretch the float too", allowed="a slope, or a level bed"
-        )
-        return
-    solids = [(first + index, body, body.solid(middle)) for index, body in enumerate(scene.floats)]
-    for index, body, solid in solids:
-        if solid.draught >= depth * (1.0 - LEAST_DEPTH):
-            most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
-            yield problem_at(("body", index, "draught"), solid.draught, "it leaves no liquid below", allowed=most)
-        if not _is_inside(plan, solid):
-            key = body.shape_key
-            yield problem_at(("body", index, key), getattr(body, key), "the float does not lie inside the tank")
-        stiffness = dict(zip(solid.motions, solid.stiffness(), strict=True))
-        for motion in ("roll", "pitch"):
-            if stiffness.get(motion, 1.0) < 0.0:
-                yield problem_at(
-                    ("body", index, "vertical_centre_of_gravity"),
-                    solid.centre_of_gravity,
-                    f"the float is unstable in {motion}",
-                    remedy="Lower its centre of gravity",
-                )
-                break
-    for (_, _, one), (index, body, other) in combinations(solids, 2):
-        apart = [abs(a - b) for a, b in zip(one.position, other.position, strict=True)]
-        if all(gap <= 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True)):
-            yield problem_at(("body", index, body.shape_key), None, "the float touches another one")
-
-
-def _is_inside(plan: Plan, solid: SolidFloat) -> bool:
-    (x, y), (along, across) = solid.position, solid.size
-    if isinstance(plan, Box):
-        return 0.5 * along < x < plan.length - 0.5 * along and 0.5 * across < y < plan.width - 0.5 * across
-    if isinstance(plan, Cylinder):
-        reach = 0.5 * (hypot(along, across) if solid.shape == "box" else along)
-        away = hypot(x, y)
-        return (not plan.inner_radius or plan.inner_radius < away - reach) and away + reach < plan.radius
-    # Of other plans gmsh tells.
-    return True
-
-
 def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     bed = scene.tank.bed
     if bed is None:
         return
-    depth, plan = scene.liquid[0].depth, physical_plan(scene)
+    depth, plan = scene.depth, physical_plan(scene)
     if bed.slope is not None:
         x, y = middle_of(plan)
         (low, high), (lower, upper) = _plan_bounds(plan)
@@ -247,7 +181,7 @@ def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    unit, depth = physical_plan(scene).unit, scene.liquid[0].depth
+    unit, depth = physical_plan(scene).unit, scene.depth
     least, most = DEPTH_TO_LENGTH
     if not least <= depth / unit <= most:
         yield problem_at(
@@ -339,7 +273,7 @@ def _bounds(outline: Outline) -> _Bounds:
 
 
 def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    (liquid,), gravity = scene.liquid, scene.tank.gravity
+    density, gravity = scene.density, scene.tank.gravity
     unit = physical_plan(scene).unit
     for index, plate in enumerate(scene.plates):
         outline = physical_outline(scene, plate)
@@ -355,7 +289,7 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
                 allowed=f"at least {SHORTEST_BEAM * unit:g} m",
             )
             continue
-        stiffness = plate.whole_rigidity / (liquid.density * gravity * extent**4)
+        stiffness = plate.whole_rigidity / (density * gravity * extent**4)
         if isfinite(stiffness) and not STIFFNESS_GROUP[0] <= stiffness <= STIFFNESS_GROUP[1]:
             key = "flexural_rigidity" if plate.flexural_rigidity is not None else "youngs_modulus"
             yield problem_at(
@@ -364,17 +298,17 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
                 f"D/(ρ g l⁴) = {stiffness:g} is beyond the resolution of double precision",
                 allowed=f"a group of {STIFFNESS_GROUP[0]:g} to {STIFFNESS_GROUP[1]:g}",
             )
-        if plate.whole_mass > MASS_GROUP[1] * liquid.density * extent:
+        if plate.whole_mass > MASS_GROUP[1] * density * extent:
             yield problem_at(
                 ("body", index, plate.mass_key),
                 plate.whole_mass,
                 "the liquid is lost in the rounding of the plate",
-                allowed=f"up to {MASS_GROUP[1] * liquid.density * extent:.3g}",
+                allowed=f"up to {MASS_GROUP[1] * density * extent:.3g}",
             )
 
 
 def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    if not scene.body and scene.tank.top != "free":
+    if not scene.body and scene.tank.top != "free" and len(scene.liquid) == 1:
         yield problem_at(
             ("tank", "top"), scene.tank.top, "nothing moves: there are no plates and no waves", allowed='"free"'
         )
@@ -382,10 +316,11 @@ def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_plan_is_complete, _something_moves, _volumes_are_of_plates),
+    (_plan_is_complete, _something_moves, volumes_are_of_plates),
     (_files_can_be_read,),
     (_outlines_fit_the_plan, _depth_fits_the_plan, _bed_is_below_the_surface),
-    (_plates_lie_in_the_tank, _floats_lie_in_the_tank),
+    (liquids_are_layered, columns_lie_in_the_tank, shaped_beds_are_simple),
+    (_plates_lie_in_the_tank, floats_lie_in_the_tank),
     (_plates_keep_apart, _groups_are_in_range),
 )
 """Each stage is made when those before found nothing, so that one wrong length is one message."""

@@ -31,6 +31,7 @@ from hydroelastic.scenes.models.bodies import (
     SparseModel,
 )
 from hydroelastic.scenes.models.folder import SceneInFolder
+from hydroelastic.scenes.models.obstacles import GivenBaffle, GivenColumn
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.title import Title
@@ -39,8 +40,6 @@ from hydroelastic.scenes.models.volume_floats import VolumeFloat
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
 OutlineName: TypeAlias = Literal["rectangle", "strip", "disc", "ring", "polygon"]
 
-PLAN_KEYS = ("width", "radius", "inner_radius", "plan", "shape")
-"""Keys of [tank] by which a tank is one in three dimensions."""
 
 SOLID_FORMATS = (".step", ".stp", ".brep")
 """Files of solids that gmsh reads by OpenCASCADE."""
@@ -131,7 +130,8 @@ class PlanLiquid(SceneModel):
 
     density: PositiveNumber = Field(description="density, kg/m³")
     depth: PositiveNumber = Field(
-        description="depth, m; over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
+        description="depth, m; of the lowest one over the middle of a sloping bed, over the lowest point of a bed of "
+        "points or of a file"
     )
 
 
@@ -305,7 +305,9 @@ class LevelTankParts(SceneInFolder):
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
     tank: PlanTank = Field(description="the tank")
-    liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
+    liquid: tuple[PlanLiquid, ...] = Field(
+        min_length=1, max_length=2, description="one liquid or two, from the bottom up"
+    )
     body: tuple[
         Annotated[
             Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")] | Annotated[VolumeFloat, Tag("float")],
@@ -317,7 +319,27 @@ class LevelTankParts(SceneInFolder):
         max_length=MOST_BODIES,
         description=f"up to {MOST_BODIES} plates, beams side by side, or solid floats; none for sloshing alone",
     )
+    column: tuple[GivenColumn, ...] = Field(
+        default=(), max_length=MOST_BODIES, description="rigid columns from the bed to above the still surface"
+    )
+    baffle: tuple[GivenBaffle, ...] = Field(
+        default=(), max_length=MOST_BODIES, description="thin rigid plates in the liquid that do not move"
+    )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+
+    @model_serializer(mode="wrap")
+    def _without_idle_tables(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if key not in ("column", "baffle") or value}
+
+    @property
+    def depth(self) -> float:
+        """That of all liquids together, m."""
+        return sum(liquid.depth for liquid in self.liquid)
+
+    @property
+    def density(self) -> float:
+        """That of the liquid on which bodies float, kg/m³."""
+        return self.liquid[-1].density
 
     @property
     def plates(self) -> tuple[PlanBody, ...]:

@@ -7,17 +7,16 @@ from pathlib import Path
 
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank, Plan, PolygonPlan
 from hydroelastic.physics.plate import Disc, Outline, Plate, Point, Polygon, Rectangle, Strip
-from hydroelastic.physics.volume_tank import Bed, SlopingBed, SurveyedBed, VolumeTank
+from hydroelastic.physics.volume_tank import Bed, LowerLiquid, SlopingBed, SurveyedBed, VolumeTank
 from hydroelastic.scenes.models import level_tank_parts as parts
 
 
 def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
     """Return the tank of a scene; SI units."""
-    (liquid,) = scene.liquid
     tank = LevelTank(
         plan=physical_plan(scene),
-        depth=liquid.depth,
-        density=liquid.density,
+        depth=scene.depth,
+        density=scene.density,
         gravity=scene.tank.gravity,
         top=scene.tank.top,
         plates=tuple(
@@ -36,14 +35,23 @@ def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
     if not needs_volume(scene):
         return tank
     given = {field.name: getattr(tank, field.name) for field in fields(tank)}
-    floats = tuple(body.solid(middle_of(tank.plan)) for body in scene.floats)
-    return VolumeTank(**given, bed=_physical_bed(scene), floats=floats)
+    middle = middle_of(tank.plan)
+    lower = scene.liquid[0]
+    return VolumeTank(
+        **given,
+        bed=_physical_bed(scene),
+        floats=tuple(body.solid(middle, scene.density, scene.folder) for body in scene.floats),
+        columns=tuple(column.outline(middle) for column in scene.column),
+        baffles=tuple(baffle.physical(middle) for baffle in scene.baffle),
+        lower=LowerLiquid(density=lower.density, depth=lower.depth) if len(scene.liquid) == 2 else None,
+    )
 
 
 def needs_volume(scene: parts.LevelTankParts) -> bool:
     """Return whether a mesh of the volume is wanted, or nothing smaller fits."""
     tank = scene.tank
-    return tank.model == "volume" or tank.shape is not None or tank.bed is not None or bool(scene.floats)
+    given = scene.floats or scene.column or scene.baffle or len(scene.liquid) == 2
+    return tank.model == "volume" or tank.shape is not None or tank.bed is not None or bool(given)
 
 
 def _physical_bed(scene: parts.LevelTankParts) -> Bed | None:
@@ -87,7 +95,7 @@ def physical_plan(scene: parts.LevelTankParts) -> Plan:
     if tank.shape is not None:
         from hydroelastic.meshes.volume_file import file_plan
 
-        return file_plan(shape_file(scene), scene.liquid[0].depth)
+        return file_plan(shape_file(scene), scene.depth)
     if tank.plan is not None:
         return PolygonPlan(points=tank.plan)
     if tank.radius is not None:

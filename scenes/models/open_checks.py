@@ -16,8 +16,6 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
-_OF_SECTIONS = ("spectrum", "impulse_response", "motion")
-"""Analyses of sections only."""
 
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -157,11 +155,10 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        is_refused = analysis.kind in _OF_SECTIONS
-        if is_refused or getattr(analysis, "hull_pressures", False):
+        if getattr(analysis, "hull_pressures", False):
             yield problem_at(
-                ("analysis", index, "kind" if is_refused else "hull_pressures"),
-                analysis.kind if is_refused else True,
+                ("analysis", index, "hull_pressures"),
+                True,
                 "it is computed for sections only, and the bodies are solids of revolution",
                 remedy="Leave it out",
             )

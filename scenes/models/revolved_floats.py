@@ -156,10 +156,11 @@ def _keys_of_the_shape(body: RevolvedFloat) -> Iterator[InitErrorDetails]:
             ("draught",), body.draught, "the sphere is under water", allowed=f"less than {2.0 * body.radius:g} m"
         )
     if body.outline is not None:
-        yield from _outline_is_beside_the_axis(body.outline)
+        yield from outline_is_beside_the_axis(body.outline)
 
 
-def _outline_is_beside_the_axis(outline: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
+def outline_is_beside_the_axis(outline: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
+    """Yield what is wrong with the corners of a revolved outline."""
     radii = [r for r, _ in outline]
     on_axis = [place for place, r in enumerate(radii) if r == 0.0]
     if min(radii) < 0.0 or on_axis not in ([], [0, len(radii) - 1]):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.problems import problem_at, require_fit
-from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -64,27 +64,6 @@ class RoundTankScene(TankParts):
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         require_fit(self, STAGES)
         return self
-
-
-def is_round_tank(document: dict[str, Any]) -> bool:
-    """Return whether a document of the kind "tank" is of revolution.
-
-    It has a radius, and floats on the axis or an outline of its bed. Other bodies, floats with a position of their
-    own, and beds that are not of revolution are those of a tank in three dimensions.
-    """
-    tank, bodies = document.get("tank"), document.get("body", [])
-    if not isinstance(tank, dict) or "radius" not in tank or not isinstance(bodies, list):
-        return False
-    if {"inner_radius", "bed", "model"} & tank.keys():
-        return False
-    on_axis = [
-        isinstance(one, dict)
-        and one.get("kind") == "float"
-        and one.get("shape") in SOLID_SHAPES
-        and "position" not in one
-        for one in bodies
-    ]
-    return all(on_axis) and (bool(on_axis) or "outline" in tank)
 
 
 def _bed_fits(scene: RoundTankScene) -> Iterator[InitErrorDetails]:

@@ -8,7 +8,7 @@ from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
 from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
 from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
 from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
-from hydroelastic.output.hydrodynamic_files.whole_bodies import whole_bodies_of_sections
+from hydroelastic.output.hydrodynamic_files.whole_bodies import bodies_of_tables
 from hydroelastic.scenes.open_water.results import OpenSolution
 
 _NAME = "bodies"
@@ -19,8 +19,8 @@ def write_exports(solution: OpenSolution, folder: Path) -> None:
     asked = solution.scene.export
     if asked is None:
         return
-    bodies = whole_bodies_of_sections(
-        solution.tank, solution.radiation, solution.response, solution.impulse_response, width=asked.width
+    bodies = bodies_of_tables(
+        solution.tank, solution.radiation, solution.response, solution.impulse_response, width=asked.width or 1.0
     )
     folder.mkdir()
     for one in asked.formats:

@@ -24,13 +24,11 @@ def write_fields(fields: tuple[SampledField, ...], folder: Path) -> None:
 
 
 def _write_field(field: SampledField, folder: Path) -> None:
-    import meshio
-
     moved = np.column_stack([field.displacement, np.zeros(len(field.displacement))])
     data = _parts("potential", field.potential) | _parts("pressure", field.pressure) | _parts("displacement", moved)
     points = np.column_stack([field.points, np.zeros(len(field.points))])
-    mesh = meshio.Mesh(points, [("triangle", field.triangles)], point_data=data, cell_data={"liquid": [field.liquid]})
-    write_vtu(folder / f"{field.name}.vtu", mesh)
+    file = folder / f"{field.name}.vtu"
+    write_vtu(file, points, [("triangle", field.triangles)], data, {"liquid": field.liquid})
 
 
 def _write_bodies(field: SampledField, folder: Path) -> None:

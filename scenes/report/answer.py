@@ -16,8 +16,8 @@ from hydroelastic.output.string.quantities import HANGING_STRING
 from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.physics.dofs import Dof
-from hydroelastic.scenes.models.level_tank import is_level_tank
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES
+from hydroelastic.scenes.models.tank_kinds import is_level_tank
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3

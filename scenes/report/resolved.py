@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.models.level_tank import is_level_tank
+from hydroelastic.scenes.models.tank_kinds import is_level_tank
 
 
 def resolved(summary: Summary) -> Section:

@@ -99,7 +99,8 @@ def solve_point(scene: Scene, options: PointOptions, name: str, family: Family |
     try:
         run = runner_of(scene)
         solve: Callable[..., Any] = run.solve if options.estimates else run.solve_alone or run.solve
-        outcome = run.solved(scene, solve=solve if family is None else partial(solve, liquids=liquids_of(family)))
+        of_family = solve if family is None else partial(solve, liquids=liquids_of(family))
+        outcome = run.solved(scene, solve=of_family, tables=options.pictures is not None)
         if options.pictures is not None:
             outcome = run.written(outcome, options.pictures / name, images=DEFAULT_PICTURES)
         modes = None

@@ -129,15 +129,19 @@ class _Solver:
     ) -> None:
         self.source, self.grid, self.overrides = source, grid, tuple(overrides)
         self.journal, self.options = journal, options
+        self._scenes: dict[str, Scene | SceneError] = {}
         self.families = families([self.scene(point) for point in grid.points])
         self.resumed = 0
 
     def scene(self, point: Point) -> Scene | SceneError:
-        """The scene of a point, or the error of its values."""
-        try:
-            return self.source.scene(self.overrides, point)
-        except SceneError as error:
-            return error
+        """The scene of a point, or the error of its values; made once."""
+        values = repr(point)
+        if values not in self._scenes:
+            try:
+                self._scenes[values] = self.source.scene(self.overrides, point)
+            except SceneError as error:
+                self._scenes[values] = error
+        return self._scenes[values]
 
     def solved(self, points: Sequence[Point], of_points: PointOptions, report: Report) -> list[SolvedPoint]:
         """Solve points, each at once kept in the journal (collective)."""

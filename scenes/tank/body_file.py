@@ -45,8 +45,6 @@ def write_bodies(
         arrays: values at all points, by name.
         start: abscissa of x = 0 of the surfaces and floats, m.
     """
-    import meshio
-
     points: list[Array] = [np.zeros((0, 3))]
     cells: list[tuple[str, NDArray[np.int64]]] = []
     parts: list[NDArray[np.int64]] = []
@@ -63,5 +61,4 @@ def write_bodies(
         parts.append(np.array([_FLOAT]))
         count += len(section.contour)
     shifted = np.concatenate(points) + np.array([start, 0.0, 0.0])
-    mesh = meshio.Mesh(shifted, cells, point_data=dict(arrays), cell_data={"part": parts})
-    write_vtu(path, mesh)
+    write_vtu(path, shifted, cells, arrays, {"part": np.concatenate(parts)})

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import meshio
 import numpy as np
 
 from hydroelastic.fem.pictures.mode import ModePicture
@@ -116,14 +115,9 @@ def write_fields(shapes: ModeShapes, omegas: list[float], folder: Path) -> None:
         data[f"potential_{name}"] = potential
         data[f"displacement_{name}"] = np.column_stack([displacement, np.zeros(len(displacement))])
     points = np.column_stack([shapes.liquid.points, np.zeros(len(shapes.liquid.points))])
-    mesh = meshio.Mesh(
-        points,
-        [("triangle", shapes.liquid.triangles)],
-        point_data=data,
-        cell_data={"liquid": [shapes.liquid.liquid]},
-    )
+    cells = [("triangle", shapes.liquid.triangles)]
     # Compressed it would be a quarter smaller, and take as long as the solution.
-    write_vtu(folder / "modes.vtu", mesh, compression=None)
+    write_vtu(folder / "modes.vtu", points, cells, data, {"liquid": shapes.liquid.liquid}, compressed=False)
     moved = {
         f"displacement_{name}": displacement_of(curves, floats)
         for name, curves, floats in zip(mode_names(shapes), shapes.curves, shapes.floats, strict=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from mpi4py import MPI
 
 from hydroelastic.fem.tank.mesh import check_mesh
-from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.physical import physical_tank
@@ -20,6 +19,8 @@ def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
     """
     if scene.mesh is None:
         return None
+    from hydroelastic.meshes.files import load_mesh  # meshio takes a while to import
+
     try:
         mesh = load_mesh(scene.mesh.file)
         check_mesh(physical_tank(scene).scaled(), mesh.scaled(1.0 / scene.tank.length))

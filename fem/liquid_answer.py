@@ -1,0 +1,51 @@
+"""The answer of a liquid to all of its surface unknowns at once, as dense matrices of one process."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from petsc4py import PETSc
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiquidAnswer:
+    """The answer of the liquid to each surface unknown, on one process. Bodies of other stiffness and mass share it.
+
+    Attributes:
+        potentials: A⁺C, shape (N, n).
+        added_mass: M_a = (ρC)ᵀA⁺C, shape (n, n).
+        root: R with RᵀK_ηR = 1, where K_η is the stiffness of the surfaces of the liquids, shape (surface unknowns,
+            surface unknowns); ``None`` where there are too many unknowns for LAPACK.
+        scaled: M_a with the unknowns of these surfaces scaled by R, shape (n, n); ``None`` without R.
+    """
+
+    potentials: np.ndarray
+    added_mass: np.ndarray
+    root: np.ndarray
+    scaled: np.ndarray
+
+
+def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, stiffness: PETSc.Mat, bodies: int) -> LiquidAnswer:
+    """Return an answer.
+
+    Args:
+        potentials: A⁺C.
+        added_mass: (ρC)ᵀA⁺C, made symmetric here.
+        stiffness: K of all surface unknowns.
+        bodies: number of the first ones, which belong to bodies.
+    """
+    added_mass = 0.5 * (added_mass + added_mass.T)
+    root = np.linalg.inv(np.linalg.cholesky(dense(stiffness)[bodies:, bodies:])).T
+    scaled = added_mass.copy()
+    scaled[:, bodies:] = scaled[:, bodies:] @ root
+    scaled[bodies:] = root.T @ scaled[bodies:]
+    return LiquidAnswer(potentials=potentials, added_mass=added_mass, root=root, scaled=scaled)
+
+
+def dense(matrix: PETSc.Mat) -> np.ndarray:
+    """A matrix of one process as a dense array, in Fortran's order."""
+    # The array lives as long as the matrix.
+    full = matrix.convert("dense", PETSc.Mat())
+    values: np.ndarray = full.getDenseArray().copy(order="F")
+    return values

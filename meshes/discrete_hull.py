@@ -1,0 +1,127 @@
+"""Hulls of triangles in gmsh: their surface is parametrized, so that it can be meshed anew at any size.
+
+The surface is divided at its sharp edges. It is joined to a liquid of OpenCASCADE by a still surface with the hull's
+waterlines as holes; the liquid below gets the hull as part of its boundary.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import gmsh
+import numpy as np
+
+from hydroelastic.meshes.hull_file import wetted_triangles
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.volume_solids import box_around
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.solid_floats import SolidFloat
+
+# Angle between triangles from which their common edge is an edge of the hull, and between pieces of a waterline.
+_SHARP = 30.0 * pi / 180.0
+# Numbers of parts of OpenCASCADE begin here, so that none of a hull has them too.
+_FIRST = 100_000
+_TRIANGLE = 2
+
+
+def add_hulls(floats: dict[str, SolidFloat]) -> dict[str, list[int]]:
+    """Add the wetted surfaces of hulls to an empty model; return the numbers of their faces, by the hull's name.
+
+    Raises:
+        MeshError: if gmsh cannot parametrize a surface.
+    """
+    if not floats:
+        return {}
+    mesh, count, every = gmsh.model.mesh, 1, {}
+    for name, solid in floats.items():
+        assert solid.hull is not None
+        triangles = wetted_triangles(solid.hull.file, solid.hull.level)
+        points = triangles.points / solid.hull.metres + np.array([*solid.origin, 0.0])
+        tag = gmsh.model.addDiscreteEntity(2)
+        mesh.addNodes(2, tag, np.arange(count, count + len(points)), points.ravel())
+        mesh.addElementsByType(tag, _TRIANGLE, [], (triangles.corners + count).ravel())
+        count += len(points)
+        every[name] = points
+    try:
+        mesh.classifySurfaces(_SHARP, True, True, _SHARP)
+        mesh.createGeometry()
+    except Exception as error:  # gmsh raises bare Exception
+        files = ", ".join(str(solid.hull.file) for solid in floats.values() if solid.hull)
+        raise MeshError(
+            f"the surface in {files} cannot be parametrized ({error}): give it as a solid (*.step), or mend and "
+            "coarsen its triangles"
+        ) from error
+    found: dict[str, list[int]] = {name: [] for name in floats}
+    for _, tag in gmsh.model.getEntities(2):
+        (place, *_) = np.array(mesh.getNodes(2, tag, includeBoundary=True)[1]).reshape(-1, 3)
+        nearest = min(every, key=lambda name: float(np.linalg.norm(every[name] - place, axis=1).min()))
+        found[nearest].append(tag)
+    for dim in range(-2, 4):
+        gmsh.model.occ.setMaxTag(dim, _FIRST)
+    return found
+
+
+def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) -> tuple[int, int, int]:
+    """Replace a volume of OpenCASCADE by one that leaves out hulls.
+
+    Args:
+        liquid: its number.
+        surfaces: its faces in the still surface that are water.
+        hulls: faces of each hull.
+
+    Returns:
+        Numbers of the volume, of the still surface around the hulls, and of that which it replaces.
+
+    Raises:
+        MeshError: if a waterline does not lie in one face of still water.
+    """
+    geo, model = gmsh.model.geo, gmsh.model
+    waterlines = [
+        loop
+        for faces in hulls.values()
+        for loop in _loops([tag for _, tag in model.getBoundary([(2, tag) for tag in faces], oriented=False)])
+    ]
+    around = {face for face in surfaces for loop in waterlines if _holds(face, loop)}
+    if len(around) != 1:
+        raise MeshError("the waterline of a hull does not lie inside one part of the still surface")
+    (replaced,) = around
+    if any(not _holds(replaced, loop) for loop in waterlines):
+        raise MeshError("the waterline of a hull is not inside the tank, or touches something else")
+    rims = _loops([abs(tag) for _, tag in model.getBoundary([(2, replaced)], combined=False, oriented=False)])
+    rims.sort(key=lambda loop: -float(np.ptp([box_around((1, tag)) for tag in loop], axis=(0, 1)).max()))
+    boundary = [tag for _, tag in model.getBoundary([(3, liquid)], oriented=False) if tag != replaced]
+    inside = {dim: model.mesh.getEmbedded(dim, tag) for dim, tag in ((2, replaced), (3, liquid))}
+    still = geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in (*rims, *waterlines)])
+    shell = [*boundary, still, *(tag for faces in hulls.values() for tag in faces)]
+    volume = geo.addVolume([geo.addSurfaceLoop(shell)])
+    geo.synchronize()
+    for dim, parent in ((2, still), (3, volume)):
+        for own in range(dim):
+            tags = [tag for entity, tag in inside[dim] if entity == own]
+            if tags:
+                model.mesh.embed(own, tags, dim, parent)
+    gmsh.model.occ.remove([(3, liquid), (2, replaced)])
+    gmsh.model.occ.synchronize()
+    return volume, still, replaced
+
+
+def _holds(face: int, loop: list[int]) -> bool:
+    """Whether all points of a loop of curves are inside a face."""
+    points: list[FloatArray] = [np.array(gmsh.model.mesh.getNodes(1, tag, True)[1]) for tag in loop]
+    places = np.concatenate(points)
+    return bool(gmsh.model.isInside(2, face, places.tolist()) == len(places) // 3)
+
+
+def _loops(curves: list[int]) -> list[list[int]]:
+    """Curves that meet at their ends, in order."""
+    ends = {tag: {point for _, point in gmsh.model.getBoundary([(1, tag)], oriented=False)} for tag in set(curves)}
+    loops = []
+    while ends:
+        first, reached = ends.popitem()
+        loop = [first]
+        while more := next((tag for tag, points in ends.items() if points & reached), None):
+            reached = ends.pop(more)
+            loop.append(more)
+        loops.append(loop)
+    return loops
+

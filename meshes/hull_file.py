@@ -1,0 +1,239 @@
+"""Hulls of floats from files: solids of CAD by OpenCASCADE, and triangles; how deep they float."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from pathlib import Path
+
+import gmsh
+import numpy as np
+
+from hydroelastic.meshes.filling import gmsh_model
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.volume_file import lies_in_plane
+from hydroelastic.physics.wetted_hulls import (
+    Hydrostatics,
+    OpenSurfaceError,
+    Triangles,
+    WettedHull,
+    hydrostatics_of_surface,
+)
+
+_Entities = list[tuple[int, int]]
+
+# Part of the height to which the still level of a mass is found.
+_LEVEL = 1e-7
+_MOST_STEPS = 40
+# Part of the volume by which a hull may differ from its mirror image.
+_SAME = 1e-6
+# Triangles on CAD: around a full circle, their degree, and the smallest ones in units of the extent.
+_AROUND, _DEGREE, _SMALLEST = 16, 4, 0.02
+# Part of the waterplane that the sum of all areas may differ from zero.
+_CLOSED = 1e-4
+_TRIANGLE = 2
+
+
+def wetted_hull(file: Path, *, draught: float | None = None, volume: float | None = None) -> WettedHull:
+    """Measure the wetted part of a hull.
+
+    Args:
+        file: solid of CAD or triangles, m.
+        draught: depth of its lowest point, m.
+        volume: that it displaces, m³; with neither its z = 0 is the still level.
+
+    Raises:
+        MeshError: if it cannot be read, is not closed, or does not displace such a volume.
+    """
+    return _wetted_hull(file, draught, volume, file.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=16)
+def _wetted_hull(file: Path, draught: float | None, volume: float | None, _changed: int) -> WettedHull:
+    low, high = extent(file)
+    level = low + draught if draught is not None else 0.0
+    if volume is not None:
+        level = _level_of(file, volume, low, high)
+    if not low < level <= high + 1e-9 * (high - low):
+        raise MeshError(f"the still level, z = {level:g} m of {file}, is not between its lowest and highest point")
+    found, corners = hydrostatics_at(file, level)
+    return WettedHull(
+        file=file,
+        level=level,
+        low=tuple(map(float, corners[0])),
+        high=tuple(map(float, corners[1])),
+        hydrostatics=found,
+        symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
+    )
+
+
+def _symmetries(file: Path, level: float, middle: tuple[float, float]) -> tuple[bool, bool]:
+    """Whether a solid is its own mirror image in planes normal to x and to y through its middle."""
+    found = []
+    for axis in (0, 1):
+        try:
+            with _solid(file) as solid:
+                occ, wetted = gmsh.model.occ, immersed(solid, level)
+                image = occ.copy(wetted)
+                occ.mirror(image, 1.0 - axis, float(axis), 0.0, -middle[axis])
+                volume = sum(occ.getMass(*one) for one in wetted)
+                left = [one for one in occ.cut(image, wetted)[0] if one[0] == 3]
+                found.append(sum(occ.getMass(*one) for one in left) < _SAME * volume)
+        except MeshError:
+            # Coinciding free-form faces may be too much for OpenCASCADE.
+            found.append(False)
+    return found[0], found[1]
+
+
+def _level_of(file: Path, volume: float, low: float, high: float) -> float:
+    """The level below which a hull has a volume, by Newton's method: the waterplane is the slope of the volume."""
+    level = 0.5 * (low + high)
+    for _ in range(_MOST_STEPS):
+        found, _ = hydrostatics_at(file, level)
+        step = (volume - found.volume) / found.waterplane
+        least, most = low + 0.1 * (level - low), high - 0.1 * (high - level)
+        level = min(max(level + step, least), most)
+        if abs(step) < _LEVEL * (high - low):
+            return level
+    raise MeshError(f"{file} displaces {volume:g} m³ at no level between its lowest and highest point")
+
+
+def extent(file: Path) -> tuple[float, float]:
+    """Return the least and the largest z of a hull, m.
+
+    Raises:
+        MeshError: if it cannot be read.
+    """
+    if file.suffix.lower() == ".stl":
+        heights = triangles_of(file, file.stat().st_mtime_ns).points[:, 2]
+        return float(heights.min()), float(heights.max())
+    with _solid(file) as solid:
+        box = gmsh.model.occ.getBoundingBox(*solid[0])
+        return box[2], box[5]
+
+
+@lru_cache(maxsize=8)
+def triangles_of(file: Path, _changed: int) -> Triangles:
+    """Return the triangles of a file, m; corners at one place are one.
+
+    Raises:
+        MeshError: if there are none.
+    """
+    with gmsh_model():
+        try:
+            gmsh.merge(str(file))
+        except Exception as error:
+            raise MeshError(f"{file} cannot be read: {error}") from error
+        tags, places, _ = gmsh.model.mesh.getNodes()
+        _, corners = gmsh.model.mesh.getElementsByType(_TRIANGLE)
+    if not len(corners):
+        raise MeshError(f"{file} holds no triangles")
+    order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    order[tags.astype(np.int64)] = np.arange(len(tags))
+    points, numbers = np.unique(
+        np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True
+    )
+    triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
+    distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return Triangles(points=points, corners=triangles[distinct])
+
+
+def _digits(places: np.ndarray) -> int:
+    """Decimal places that the single precision of a binary file has."""
+    return int(6 - np.ceil(np.log10(np.abs(places).max())))
+
+
+def wetted_triangles(file: Path, level: float) -> Triangles:
+    """Return those below a level, which becomes z = 0.
+
+    Raises:
+        MeshError: if they and the level do not close a body.
+    """
+    wetted = triangles_of(file, file.stat().st_mtime_ns).below(level)
+    try:
+        wetted.require_closed()
+    except OpenSurfaceError as error:
+        raise MeshError(f"the surface in {file} {error}") from error
+    return wetted
+
+
+def hydrostatics_at(file: Path, level: float) -> tuple[Hydrostatics, np.ndarray]:
+    """Return the hydrostatics of a hull immersed to a level, and the extremes of its wetted part, shape (2, 3).
+
+    Raises:
+        MeshError: if the wetted part is not closed.
+    """
+    if file.suffix.lower() == ".stl":
+        wetted = wetted_triangles(file, level)
+        return wetted.hydrostatics(), np.array([wetted.points.min(axis=0), wetted.points.max(axis=0)])
+    with _solid(file) as solid:
+        return _of_solid(immersed(solid, level))
+
+
+@contextmanager
+def _solid(file: Path) -> Iterator[_Entities]:
+    with gmsh_model():
+        yield hull_solid(file, 1.0)
+
+
+def hull_solid(file: Path, metres: float) -> _Entities:
+    """Read the one solid of a file into the current model, in a unit of length.
+
+    Raises:
+        MeshError: if there is not one.
+    """
+    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
+    try:
+        solids = [one for one in gmsh.model.occ.importShapes(str(file)) if one[0] == 3]
+    finally:
+        gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
+    if len(solids) != 1:
+        raise MeshError(f"{file} holds {len(solids)} solids; a hull is one")
+    return solids
+
+
+def immersed(solid: _Entities, level: float) -> _Entities:
+    """Return the part of a solid below a level of its file, which becomes z = 0."""
+    occ = gmsh.model.occ
+    left, front, low, right, back, _ = occ.getBoundingBox(*solid[0])
+    pad = right - left + back - front
+    box = occ.addBox(left - pad, front - pad, low - pad, right - left + 2 * pad, back - front + 2 * pad, level - low + pad)
+    below = [one for one in occ.intersect(solid, [(3, box)])[0] if one[0] == 3]
+    if not below:
+        raise MeshError("nothing of the hull is below the still level")
+    occ.translate(below, 0.0, 0.0, -level)
+    return below
+
+
+def _of_solid(wetted: _Entities) -> tuple[Hydrostatics, np.ndarray]:
+    """By the divergence theorem over curved triangles: the masses that OpenCASCADE states of free-form faces have three
+    digits."""
+    occ, mesh = gmsh.model.occ, gmsh.model.mesh
+    occ.synchronize()
+    box = occ.getBoundingBox(*wetted[0])
+    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", _AROUND)
+    gmsh.option.setNumber("Mesh.MeshSizeMin", _SMALLEST * (box[3] - box[0] + box[4] - box[1]))
+    gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
+    mesh.generate(2)
+    mesh.setOrder(_DEGREE)
+    kind = mesh.getElementType("triangle", _DEGREE)
+    local, weights = mesh.getIntegrationPoints(kind, f"Gauss{3 * _DEGREE}")
+    points, areas, lid = [], [], np.zeros(3)
+    for _, tag in gmsh.model.getBoundary(wetted, oriented=False):
+        frames, _, places = mesh.getJacobians(kind, local, tag)
+        along = frames.reshape(-1, len(weights), 3, 3)
+        own = (weights[:, None] * np.cross(along[:, :, 0], along[:, :, 1])).reshape(-1, 3)
+        if lies_in_plane(tag, 2, 0.0):
+            lid += own.sum(axis=0)
+        else:
+            points.append(places.reshape(-1, 3))
+            areas.append(own)
+    if not lid.any():
+        raise MeshError("the hull does not rise to the still level")
+    every = np.concatenate(areas)
+    if np.abs(every.sum(axis=0) + lid).max() > _CLOSED * np.abs(lid).max():
+        raise MeshError("the faces of the hull do not close it")
+    at = np.concatenate(points)
+    return hydrostatics_of_surface(at, np.sign(lid[2]) * every), np.array([at.min(axis=0), at.max(axis=0)])

@@ -1,0 +1,178 @@
+"""Checks of the parts of a tank that is meshed in its volume: liquids, columns, baffles, floats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from math import hypot
+from typing import TypeAlias
+
+import numpy as np
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.physics.level_tank import Box, Cylinder, Plan
+from hydroelastic.physics.plate import Disc, Point, Rectangle
+from hydroelastic.physics.solid_floats import SolidFloat
+from hydroelastic.scenes.models.level_tank_parts import LevelTankParts
+from hydroelastic.scenes.models.level_tank_physics import middle_of, needs_volume, physical_plan
+from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.volume_floats import UnfloatableError, VolumeFloat
+
+LEAST_DEPTH = 0.05
+"""Part of the depth that a bed leaves: cells over a shallower one would be flat."""
+
+# Part of the largest stiffness.
+_ROUNDING = 1e-12
+
+_Bounds: TypeAlias = tuple[Point, Point]
+
+
+def liquids_are_layered(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    """Two liquids have the lighter one above, and upright walls or those of a solid around both."""
+    if len(scene.liquid) == 1:
+        return
+    lower, upper = scene.liquid
+    if upper.density >= lower.density:
+        yield problem_at(
+            ("liquid", 1, "density"),
+            upper.density,
+            "the upper liquid is not lighter than the lower one",
+            allowed=f"less than {lower.density:g} kg/m³",
+            remedy="Liquids are given from the bottom up",
+        )
+    if scene.tank.shape is not None and scene.tank.shape.suffix.lower() == ".msh":
+        yield problem_at(
+            ("liquid",),
+            None,
+            "the cells of a mesh are of one liquid",
+            remedy="Give the shape of the tank as a solid, *.step or *.brep",
+        )
+
+
+def columns_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    """Columns stand inside, without touching each other, and a mesh of a file has none."""
+    plan = physical_plan(scene)
+    middle = middle_of(plan)
+    if scene.tank.shape is not None and scene.tank.shape.suffix.lower() == ".msh":
+        for table in ("column", "baffle", "body"):
+            if getattr(scene, table):
+                wrong = "a mesh of a file is taken as it is, with nothing in it"
+                remedy = "Give the shape of the tank as a solid, *.step or *.brep"
+                yield problem_at((table, 0), None, wrong, remedy=remedy)
+                return
+    outlines = [column.outline(middle) for column in scene.column]
+    for index, (column, outline) in enumerate(zip(scene.column, outlines, strict=True)):
+        key = "size" if column.radius is None else "radius"
+        if not _is_inside(plan, _bounds(outline), isinstance(outline, Disc)):
+            yield problem_at(("column", index, key), getattr(column, key), "the column does not lie inside the tank")
+        for earlier in outlines[:index]:
+            if _meet(_bounds(outline), _bounds(earlier)):
+                yield problem_at(("column", index, key), getattr(column, key), "the column touches another one")
+                break
+
+
+def shaped_beds_are_simple(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    """A bed through points moves the nodes of a level tank, which would stretch what is in the liquid."""
+    bed = scene.tank.bed
+    if bed is None or bed.slope is not None:
+        return
+    inside = {"the float": scene.floats, "the baffle": scene.baffle, "the interface": scene.liquid[1:]}
+    for what, given in inside.items():
+        if given:
+            wrong = f"a bed through points would stretch {what} too"
+            yield problem_at(("tank", "bed"), None, wrong, allowed="a slope, or a level bed")
+
+
+def volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    """Beams side by side have no model in a volume."""
+    for index, body in enumerate(scene.body):
+        if needs_volume(scene) and body.kind == "beam":
+            yield problem_at(
+                ("body", index, "kind"),
+                body.kind,
+                "beams side by side need a tank with a level bed",
+                remedy='Take a plate, kind = "plate" with outline = "strip", in its place',
+            )
+
+
+def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    """Floats can be at rest as given, are stable, and touch nothing; in two liquids they are in the upper one."""
+    plan, depth = physical_plan(scene), scene.liquid[-1].depth
+    middle, first = middle_of(plan), len(scene.plates)
+    if any(isinstance(body, VolumeFloat) for body in scene.body[:first]):
+        remedy = "Move it to the end of the scene"
+        place = next(index for index, body in enumerate(scene.body) if isinstance(body, VolumeFloat))
+        yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
+        return
+    solids = []
+    for index, body in enumerate(scene.floats, first):
+        try:
+            solids.append((index, body, body.solid(middle, scene.density, scene.folder)))
+        except UnfloatableError as error:
+            value = getattr(body, error.key)
+            yield problem_at(("body", index, error.key), str(value) if error.key == "file" else value, str(error))
+            return
+    columns = [_bounds(column.outline(middle)) for column in scene.column]
+    for index, body, solid in solids:
+        if solid.draught >= depth * (1.0 - LEAST_DEPTH):
+            most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
+            below = "below" if len(scene.liquid) == 1 else "of the upper one below"
+            yield problem_at(("body", index, "draught"), solid.draught, f"it leaves no liquid {below}", allowed=most)
+        if not _is_inside(plan, solid.bounds, solid.shape in ("cylinder", "sphere", "revolved")):
+            key = body.shape_key
+            value = getattr(body, key)
+            value = str(value) if key == "file" else value
+            yield problem_at(("body", index, key), value, "the float does not lie inside the tank")
+        unstable = _unstable_motion(solid)
+        if unstable:
+            yield problem_at(
+                ("body", index, "vertical_centre_of_gravity"),
+                solid.centre_of_gravity,
+                f"the float is unstable in {unstable}",
+                remedy="Lower its centre of gravity",
+            )
+        if any(_meet(solid.bounds, column) for column in columns):
+            yield problem_at(("body", index, body.shape_key), None, "the float touches a column")
+    for (_, _, one), (index, body, other) in combinations(solids, 2):
+        if _meet(one.bounds, other.bounds):
+            yield problem_at(("body", index, body.shape_key), None, "the float touches another one")
+
+
+def _unstable_motion(solid: SolidFloat) -> str:
+    """The motion with the largest part of a displacement that lowers the energy; "" of a stable float."""
+    # Turns are counted by the displacement of the rim.
+    reach = 0.5 * max(solid.size)
+    units = np.array([1.0 / reach if motion in ("roll", "pitch", "yaw") else 1.0 for motion in solid.motions])
+    values, vectors = np.linalg.eigh(solid.stiffness() * np.outer(units, units))
+    if values[0] >= -_ROUNDING * abs(values).max():
+        return ""
+    return solid.motions[int(np.argmax(np.abs(vectors[:, 0])))]
+
+
+def _around(position: Point, size: Point) -> _Bounds:
+    (x, y), (along, across) = position, size
+    return (x - 0.5 * along, x + 0.5 * along), (y - 0.5 * across, y + 0.5 * across)
+
+
+def _bounds(outline: Rectangle | Disc) -> _Bounds:
+    size = outline.size if isinstance(outline, Rectangle) else (2.0 * outline.radius,) * 2
+    return _around(outline.position, size)
+
+
+def _meet(one: _Bounds, other: _Bounds) -> bool:
+    """Whether two boxes touch or overlap."""
+    return all(
+        low <= upper and lower <= high for (low, high), (lower, upper) in zip(one, other, strict=True)
+    )
+
+
+def _is_inside(plan: Plan, bounds: _Bounds, is_round: bool) -> bool:
+    (left, right), (front, back) = bounds
+    if isinstance(plan, Box):
+        return 0.0 < left and right < plan.length and 0.0 < front and back < plan.width
+    if isinstance(plan, Cylinder):
+        reach = 0.5 * (right - left if is_round else hypot(right - left, back - front))
+        away = hypot(0.5 * (left + right), 0.5 * (front + back))
+        return (not plan.inner_radius or plan.inner_radius < away - reach) and away + reach < plan.radius
+    # Of other plans gmsh tells.
+    return True

@@ -1,0 +1,139 @@
+"""Hard cases of solids of revolution in the open sea, with true errors: from tighter solutions, references, theorems."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from open_cases import TOO_SMALL
+from scipy.special import h1vp, jvp
+from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, solved
+
+from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
+from hydroelastic.fem.open_water.results import RadiationTable
+
+pytestmark = pytest.mark.slow
+
+
+def cylinder(radius: float, draught: float, **further: Any) -> dict[str, Any]:
+    return {"shape": "cylinder", "radius": radius, "draught": draught} | further
+
+
+def hydrodynamic(table: RadiationTable) -> np.ndarray:
+    return np.asarray(table.added_mass[0] + 1j * table.radiation_damping[0] / table.omega[0])
+
+
+SPHERE: dict[str, Any] = {"shape": "sphere", "radius": 1.0}
+SPAR_IN_RING = [cylinder(1.0, 2.0), cylinder(3.0, 0.5, inner_radius=2.0)]
+# Bodies, depth, ω, motions.
+HARD: dict[str, tuple[list[dict[str, Any]], float, float, tuple[str, ...]]] = {
+    "a gap of a hundredth of the radius under a deep float": ([cylinder(1.0, 0.99)], 1.0, 2.0, MOTIONS),
+    "a ring as thin as a two-hundredth of its radius": ([cylinder(10.0, 0.1, inner_radius=9.95)], 5.0, 1.5, MOTIONS[:2]),
+    "long waves, Ka = 1e-3": ([SPHERE], math.inf, math.sqrt(1e-3 * GRAVITY), MOTIONS[:2]),
+    "short waves, Ka = 20": ([SPHERE], math.inf, math.sqrt(20.0 * GRAVITY), MOTIONS[:2]),
+    "short waves beside corners, Ka = 20": ([cylinder(1.0, 0.5)], 2.0, math.sqrt(20.0 * GRAVITY), MOTIONS),
+    "the resonance of a moon pool": ([cylinder(1.0, 0.5, inner_radius=0.6)], 3.0, 3.25, MOTIONS[:2]),
+    "sloshing between spar and ring, order 1": (SPAR_IN_RING, 8.0, 1.9036, MOTIONS[:2]),
+    "sloshing between spar and ring, order 0": (SPAR_IN_RING, 8.0, 3.42, MOTIONS[:2]),
+    "bodies that touch": ([cylinder(1.0, 2.0), cylinder(2.0, 0.5, inner_radius=1.0)], 4.0, 2.0, MOTIONS[:2]),
+    "kH = 0.01": ([cylinder(1.0, 0.5)], 1.0, 0.01 * math.sqrt(GRAVITY), MOTIONS[:2]),
+    "kH = 100": ([cylinder(1.0, 0.5)], 10.0, math.sqrt(10.0 * GRAVITY), MOTIONS[:2]),
+}
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_the_error_is_told_where_it_is_hard_to_keep(name: str) -> None:
+    """A solution to 1e-4 differs from one to 1e-6 by no more than it says."""
+    bodies, depth, omega, motions = HARD[name]
+    request = RadiationRequest(omega=(omega,))
+    (rough,) = solved(bodies, depth, 1e-4, request, motions=motions).radiation
+    (fine,) = solved(bodies, depth, 1e-6, request, motions=motions).radiation
+    known, found = hydrodynamic(fine), hydrodynamic(rough)
+    sizes = np.sqrt(np.abs(np.diag(known)))
+    error = float((np.abs(found - known) / np.outer(sizes, sizes)).max())
+    assert error < TOO_SMALL * rough.relative_error[0] + fine.relative_error[0]
+    assert rough.relative_error[0] < 1e-4
+    assert fine.relative_error[0] < 1e-6
+    assert fine.energy_residual[0] < 1e-5
+    np.testing.assert_allclose(known / np.outer(sizes, sizes), known.T / np.outer(sizes, sizes), atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["m5 annulus with moonpool K=0.4", "m5 annulus with moonpool K=3.0"])
+def test_a_ring_with_a_moon_pool_agrees_with_the_reference(name: str) -> None:
+    case = CASES[name]
+    values = case["values"]
+    (table,) = solved(bodies_of(case), depth_of(case), 1e-6, RadiationRequest(omega=(values["omega"],))).radiation
+    for order, own in ((0, [0]), (1, [1, 2])):
+        known = np.array(values[f"added_mass_n{order}"]) + 1j * np.array(values[f"damping_n{order}"]) / values["omega"]
+        found = hydrodynamic(table)[np.ix_(own, own)]
+        np.testing.assert_allclose(found, known, atol=2e-6 * np.abs(known).max())
+
+
+def test_short_waves_about_a_pile_have_all_orders_up_to_twelve() -> None:
+    """aₙ = −Jₙ′/Hₙ′ of MacCamy and Fuchs at ka = 8, beside a cylinder so deep that e^{−2kd} is 1e-7."""
+    wavenumber = 8.0
+    request = ResponseRequest(omega=(math.sqrt(GRAVITY * wavenumber),))
+    (table,) = solved([cylinder(1.0, 1.0)], math.inf, 1e-5, request, motions=("heave",)).response
+    assert table.partial_waves is not None
+    found = table.partial_waves[0, 0, 0]
+    assert len(found) > 13
+    orders = np.arange(len(found))
+    # The wave below the cylinder is e^{−kd} = 3e-4 of that above.
+    np.testing.assert_allclose(found, -jvp(orders, wavenumber) / h1vp(orders, wavenumber), atol=1e-6)
+
+
+@pytest.mark.parametrize("depth_in_radians", [0.01, 0.1, 1.0, 10.0, 100.0])
+def test_no_power_is_lost_or_reflected_by_the_truncation(depth_in_radians: float) -> None:
+    """|1 + 2aₙ|² = 1 of all orders up to 8 to 1e-7, of a cylinder of kH from 0.01 to 100."""
+    depth = 2.0
+    wavenumber = depth_in_radians / depth
+    omega = math.sqrt(GRAVITY * wavenumber * math.tanh(depth_in_radians))
+    radius = max(1.0, 6.0 / wavenumber) if wavenumber < 6.0 else 1.0
+    (table,) = solved(
+        [cylinder(radius, 1.0)], depth, 1e-7, ResponseRequest(omega=(omega,)), motions=("heave", "surge")
+    ).response
+    waves = table.partial_waves
+    assert waves is not None
+    assert waves.shape[-1] >= 9
+    np.testing.assert_allclose(np.abs(1.0 + 2.0 * waves[0, 0, 0, :9]) ** 2, 1.0, atol=1e-7)
+
+
+def test_identities_hold_to_eight_digits() -> None:
+    """Energy, Haskind, the optical theorem, and the symmetry of added mass between a spar and its ring."""
+    omega = 1.3
+    solution = solved(
+        SPAR_IN_RING, 8.0, 1e-8, RadiationRequest(omega=(omega,)), ResponseRequest(omega=(omega,)), motions=MOTIONS[:2]
+    )
+    (table,), (response,) = solution.radiation, solution.response
+    assert table.energy_residual[0] < 1e-8
+    assert table.haskind_residual[0] < 1e-8
+    found = hydrodynamic(table)
+    np.testing.assert_allclose(found, found.T, atol=1e-8 * np.abs(found).max())
+    assert response.partial_waves is not None
+    # σ = −(4/k) Σ εₙ Re aₙ where nothing is absorbed.
+    waves = response.partial_waves[0, 0, 0]
+    np.testing.assert_allclose(-waves.real, np.abs(waves) ** 2, atol=1e-8)
+
+
+def test_air_above_hardly_changes_a_float_between_two_liquids() -> None:
+    """An upper liquid of a millionth of the density leaves the answer of one liquid, to that part and the error."""
+    body = cylinder(1.0, 0.5)
+    request = RadiationRequest(omega=(2.0,))
+    (alone,) = solved([body], 3.0, 1e-6, request).radiation
+    liquids = [{"density": DENSITY, "depth": 3.0}, {"density": 1e-6 * DENSITY, "depth": 3.0}]
+    (beside,) = solved([body], 3.0, 1e-6, request, liquid=liquids).radiation
+    known, found = hydrodynamic(alone), hydrodynamic(beside)
+    np.testing.assert_allclose(found, known, atol=1e-5 * np.abs(known).max())
+
+
+def test_a_float_between_two_liquids_radiates_what_it_loses() -> None:
+    """Both waves together: energy and Haskind, and symmetric matrices."""
+    liquids = [{"density": DENSITY, "depth": 3.0}, {"density": 0.9 * DENSITY, "depth": 2.0}]
+    (table,) = solved([cylinder(1.0, 0.5)], 3.0, 1e-6, RadiationRequest(omega=(0.8,)), liquid=liquids).radiation
+    assert table.waves == ("surface", "internal")
+    assert table.energy_residual[0] < 1e-5
+    assert table.haskind_residual[0] < 1e-5
+    found = hydrodynamic(table)
+    np.testing.assert_allclose(found, found.T, atol=1e-8 * np.abs(found).max())

@@ -15,7 +15,7 @@ from time import process_time
 
 
 def main(arguments: list[str]) -> None:
-    """Solve once in degree 2 on one thread, by conjugate gradients with BDDC and algebraic multigrid on its coarse level."""
+    """Solve once in degree 2 on one thread: conjugate gradients with BDDC, algebraic multigrid on its coarse level."""
     folder, cells, tolerance = arguments[0], int(arguments[1]), float(arguments[2])
     if folder:
         sys.path.append(folder)

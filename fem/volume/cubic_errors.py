@@ -11,11 +11,14 @@ cell; three times as many unknowns as those of the modes stand in five vectors.
 
 from __future__ import annotations
 
+from itertools import chain
+
 import basix
 import numpy as np
 import ufl
 from dolfinx import fem, la
 from numpy.typing import NDArray
+from scipy.sparse import csr_array, vstack
 
 from hydroelastic.fem.cells import cell_jacobians, is_straight, owned_cells
 from hydroelastic.fem.kernels import compiled_form
@@ -55,17 +58,18 @@ def cubic_errors(
     tank = quadratic.tank
     cubic = liquid_space(tank, DEGREE + 1, quadratic.zero_potential)
     moving = [plate for plate in plates if plate.body.size]
-    loads = np.concatenate(
-        [
-            np.empty((0, len(cubic.numbering.owned_dofs))),
-            *(plate_loads(cubic, plate) for plate in moving),
-            *(shape_loads(cubic, body) for body in pencil.bodies[len(moving) :]),
-        ]
+    rows = chain(
+        (load for plate in moving for load in plate_loads(cubic, plate)),
+        (load for body in pencil.bodies[len(moving) :] for load in shape_loads(cubic, body)),
     )
+    # Sparse, as they are of surfaces.
+    loads = vstack([csr_array((1, len(cubic.numbering.owned_dofs))), *(csr_array(row[None]) for row in rows)]).tocsr()[
+        1:
+    ]
     equation = _CubicEquation(cubic, quadratic, waves=bool(pencil.surfaces))
     errors = []
     for mode, potential in zip(modes, as_functions(quadratic, [mode.potential for mode in modes]), strict=True):
-        equation.energy_of(potential, mode.eigenvalue, mode.body_amplitudes @ loads)
+        equation.energy_of(potential, mode.eigenvalue, loads.T @ mode.body_amplitudes)
         errors.append(equation.cell_energies())
     return np.array(errors).reshape(len(modes), len(owned_cells(tank.mesh)))
 

@@ -119,3 +119,17 @@ def write_index(path: Path, parts: Iterable[str], arrays: Iterable[str]) -> None
     text += "".join(f'<PDataArray type="Float64" Name="{escape(name)}"/>\n' for name in arrays)
     text += "</PPointData>\n" + "".join(f'<Piece Source="{escape(part)}"/>\n' for part in parts)
     path.write_text(text + "</PUnstructuredGrid>\n</VTKFile>\n", encoding="utf-8")
+
+
+def write_collection(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:
+    """Write a PVD file, which ParaView plays.
+
+    Args:
+        path: of the file.
+        entries: value of the time, number of the part, name of the file, in the order of time.
+    """
+    text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
+    text += "".join(
+        f'  <DataSet timestep="{time:.12g}" part="{part}" file="{escape(file)}"/>\n' for time, part, file in entries
+    )
+    path.write_text(text + " </Collection>\n</VTKFile>\n", encoding="utf-8")

@@ -75,9 +75,9 @@ def volume_pencil(
     names = tuple(dict.fromkeys((*(body.surface for body in bodies), *(surface.surface for surface in surfaces))))
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
-    of_plates = (plate_loads(liquid, plate) for plate in moving)
-    of_floats = (shape_loads(liquid, body) for body in rigid)
-    loads = (images * load for own in chain(of_plates, of_floats) for load in own)
+    of_plates = (load for plate in moving for load in plate_loads(liquid, plate))
+    of_floats = (load for body in rigid for load in shape_loads(liquid, body))
+    loads = (images * load for load in chain(of_plates, of_floats))
     count = sum(body.size for body in bodies)
     return coupled_pencil(
         liquid,

@@ -1,4 +1,4 @@
-"""Ends of runs of volumes: an error of one process, and a process that is killed, continue or end as they should."""
+"""Runs of volumes: what a killed process leaves, an error of one process, and the parts that each process writes."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
+import pyvista
+
+from hydroelastic.scenes.read import read_scene
+from hydroelastic.scenes.run import run_scene
 
 # Starts the command with a function of the project in place of its own.
 _START = """
@@ -68,3 +72,23 @@ def test_an_error_of_one_process_ends_all_with_a_message(tmp_path: Path) -> None
     assert ended.returncode != 0
     assert "the disk is gone" in ended.stderr
     assert "process 1 of 2 has failed, see above; all processes end" in ended.stderr
+
+
+@pytest.mark.mpi
+@pytest.mark.only_on_ranks
+def test_each_process_writes_its_part_of_the_volume(tmp_path: Path) -> None:
+    """Of a box of 30 m × 12 m × 6 m without the barge, 12 m × 5 m × 1.5 m; a quarter of it is solved."""
+    from mpi4py import MPI
+
+    folder = MPI.COMM_WORLD.bcast(tmp_path) / "result"
+    scene = read_scene("barge_in_a_dock", ("accuracy.tolerance=5e-2", "accuracy.modes=1"))
+    summary = run_scene(scene, out=folder, images=None).summary
+    assert summary["size"]["memory_of_a_process"] < summary["memory_peak"]
+    MPI.COMM_WORLD.Barrier()
+    parts = [pyvista.read(file) for file in sorted(folder.glob("fields/volume/*.vtu"))]
+    assert len(parts) == MPI.COMM_WORLD.size
+    whole = pyvista.read(folder / "fields" / "volume.pvtu")
+    assert whole.n_cells == sum(part.n_cells for part in parts)
+    # Straight cells fill it to rounding.
+    assert whole.compute_cell_sizes()["Volume"].sum() == pytest.approx(30.0 * 12.0 * 6.0 - 12.0 * 5.0 * 1.5, rel=1e-9)
+    assert all(part["potential_001"].any() for part in parts)

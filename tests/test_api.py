@@ -282,7 +282,7 @@ def test_pip_installs_every_folder_of_code() -> None:
 @pytest.mark.parametrize("way", ["--target", "--editable"])
 def test_pip_installs_the_interface(way: str, tmp_path: Path) -> None:
     pytest.importorskip("setuptools")
-    for name in ("api", "physics", "meshes", "modal", "fem", "scenes", "benchmarks", "requirements"):
+    for name in ("api", "physics", "meshes", "modal", "fem", "output", "scenes", "benchmarks", "requirements"):
         shutil.copytree(ROOT / name, tmp_path / "checkout" / name)
     for name in ("pyproject.toml", "README.md"):
         shutil.copy(ROOT / name, tmp_path / "checkout")

@@ -1,5 +1,7 @@
 """Whatever a scene holds, it is accepted or refused in words; and what a check accepts, the start of a run accepts."""
 
+from __future__ import annotations
+
 import re
 import shutil
 from collections.abc import Iterator
@@ -192,7 +194,7 @@ def test_what_is_drawn_reaches_every_key_of_the_models(kind: str) -> None:
     """Else the properties above would say nothing of a key that was added later."""
     seen: set[str] = set()
 
-    @settings(QUICK, max_examples=300)
+    @settings(QUICK, max_examples=1500)
     @given(documents(SCENE_MODELS[kind]))
     def draw(document: Document) -> None:
         seen.update(_keys(document))

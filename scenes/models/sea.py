@@ -8,7 +8,16 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, model_serializer, model_validator
 
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel, Shape
+from hydroelastic.scenes.models.bodies import (
+    LARGEST,
+    MOST_BODIES,
+    AnyNumber,
+    Beam,
+    Float,
+    PositiveNumber,
+    SceneModel,
+    Shape,
+)
 from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
@@ -111,7 +120,8 @@ class SeaScene(TankParts):
     def tank(self) -> Tank:
         """The stretch that is drawn, as open water of its length."""
         left, right = self.stretch
-        return Tank(length=right - left, gravity=self.sea.gravity, ends="open", top=self.sea.top)
+        # The bodies have their own limits, and the stretch that follows from them needs none.
+        return Tank(length=min(right - left, LARGEST), gravity=self.sea.gravity, ends="open", top=self.sea.top)
 
     @cached_property
     def stretch(self) -> tuple[float, float]:

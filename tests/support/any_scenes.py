@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from hydroelastic.scenes.models.values import OrElse
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER
 
 Document = dict[str, Any]
@@ -76,6 +77,9 @@ def _values(annotation: Any, limits: list[Any]) -> st.SearchStrategy[Any]:
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         return _values(parts[0], [*limits, *annotation.__metadata__])
+    others = [limit.form for limit in limits if isinstance(limit, OrElse) and not isinstance(limit.form, dict)]
+    if others:
+        return st.one_of(_values(annotation, []), *map(documents, others))
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return st.deferred(lambda: documents(annotation))
     if origin is Literal:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import sys
+from itertools import pairwise
 from math import pi
 from resource import RUSAGE_SELF, getrusage
 from time import process_time
@@ -43,7 +44,7 @@ def main(arguments: list[str]) -> None:
     answer = {
         "unknowns": space.ndof,
         "iterations": solver.iterations,
-        "seconds": [later - earlier for earlier, later in zip(times[:-1], times[1:], strict=True)],
+        "seconds": [later - earlier for earlier, later in pairwise(times)],
         "energy": ngsolve.InnerProduct(load.vec, potential.vec),
         "memory": getrusage(RUSAGE_SELF).ru_maxrss * 1024,
         "version": ngsolve.__version__,

@@ -13,6 +13,7 @@ import click
 
 from hydroelastic.benchmarks import output
 from hydroelastic.benchmarks.basin.cases import BASINS, basin_cases
+from hydroelastic.benchmarks.buoy.cases import BUOYS, buoy_cases
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import cases_of, run_benchmark
@@ -52,6 +53,7 @@ PROBLEMS = {
     "string": Problem(members=MOTIONS, cases=string_cases, repeats=3, output=output.STRING),
     "thread": Problem(members=THREADS, cases=thread_cases, repeats=3, output=output.THREADS),
     "basin": Problem(members=BASINS, cases=basin_cases, repeats=3, output=output.BASINS),
+    "buoys": Problem(members=BUOYS, cases=buoy_cases, repeats=3, output=output.BUOYS),
 }
 _QUICK_REPEATS = 3
 
@@ -67,7 +69,8 @@ _QUICK_REPEATS = 3
 def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, no_install: bool) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, sweeps
     beside a loop over NGSolve, a circle beside Capytaine, a
-    hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
+    hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn,
+    heaving buoys beside Capytaine and OpenFLASH.
 
     \b
     Example:

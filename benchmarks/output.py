@@ -10,6 +10,8 @@ from pathlib import Path
 
 from hydroelastic.benchmarks.basin.figure import draw_basins
 from hydroelastic.benchmarks.basin.report import basins_csv, basins_markdown
+from hydroelastic.benchmarks.buoy.figure import draw_buoys
+from hydroelastic.benchmarks.buoy.report import buoys_csv, buoys_markdown
 from hydroelastic.benchmarks.circle.figure import draw_circle
 from hydroelastic.benchmarks.circle.report import circle_csv, circle_markdown
 from hydroelastic.benchmarks.measure import Benchmark
@@ -47,6 +49,7 @@ CIRCLE = Output(name="open_circle", rows=circle_csv, page=circle_markdown, draw=
 STRING = Output(name="hanging_string", rows=strings_csv, page=strings_markdown, draw=draw_strings)
 THREADS = Output(name="threads", rows=threads_csv, page=threads_markdown, draw=draw_threads)
 BASINS = Output(name="basins", rows=basins_csv, page=basins_markdown, draw=draw_basins)
+BUOYS = Output(name="buoys", rows=buoys_csv, page=buoys_markdown, draw=draw_buoys)
 
 
 class OutputError(Exception):

@@ -33,6 +33,9 @@ NAMES: dict[Code, str] = {
     "basin field": "hydroelastic",
     "ngsolve plan": "NGSolve, plan",
     "ngsolve volume": "NGSolve, volume",
+    "hydroelastic buoy": "hydroelastic",
+    "capytaine buoy": "Capytaine",
+    "open-flash": "OpenFLASH",
 }
 
 Cells = Callable[[Row], Sequence[str]]

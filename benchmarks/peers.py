@@ -30,10 +30,14 @@ PEER_MODULES: dict[Code, str] = {
     "moordyn": "moordyn",
     "ngsolve plan": "ngsolve",
     "ngsolve volume": "ngsolve",
+    "capytaine buoy": "capytaine",
+    "open-flash": "openflash",
 }
 EXTRA = "bench"
 _KEPT = ("numpy", "scipy")
 _MOST_SECONDS = 1800
+# It asks for a NumPy older than the environment's, with which it works, and for a web server.
+_ALONE = ("open-flash",)
 
 
 class PeerError(RuntimeError):
@@ -107,7 +111,8 @@ def _install(requirement: str, folder: Path) -> None:
         constraints = building / "constraints.txt"
         constraints.write_text("".join(f"{name}=={version(name)}\n" for name in _KEPT), encoding="utf-8")
         # A prefix, for Netgen's wheel has libraries outside of its packages, which `--target` loses.
-        _pip("install", "--prefix", str(building), "--constraint", str(constraints), requirement)
+        alone = ["--no-deps"] * requirement.startswith(_ALONE)
+        _pip("install", *alone, "--prefix", str(building), "--constraint", str(constraints), requirement)
         try:
             building.rename(folder)
         except OSError:

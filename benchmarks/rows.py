@@ -9,8 +9,10 @@ from statistics import median, quantiles
 import numpy as np
 
 from hydroelastic.benchmarks.basin.cases import basin_error
+from hydroelastic.benchmarks.buoy.cases import buoy_error
 from hydroelastic.benchmarks.cases import (
     BASIN_CODES,
+    BUOY_CODES,
     CIRCLE_CODES,
     STRING_CODES,
     SWEEP_CODES,
@@ -33,7 +35,8 @@ class Row:
         case: what was solved.
         unknowns: as the answer says.
         error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, of the
-            displacements of the string relative to the largest one, or that of a thread that `thread_error` tells.
+            displacements of the string relative to the largest one, of heave of a buoy, or that of a
+            thread that `thread_error` tells.
         seconds: of each round.
         stages: seconds by stage, median of the rounds.
         note: what else the code says.
@@ -82,6 +85,8 @@ def _error(case: Case, answer: Answer) -> float:
         return string_error(case.tank, answer.values)
     if case.code in BASIN_CODES:
         return basin_error(case.tank, answer.values)
+    if case.code in BUOY_CODES:
+        return buoy_error(case.tank, answer.values)
     if case.code in THREAD_CODES:
         return thread_error(case.tank, answer.values)
     return float(np.abs(np.array(answer.values) / np.array(tank_named(case.tank).frequencies) - 1.0).max())

@@ -42,6 +42,9 @@ MODULES = {
     "basin field": "basin.hydroelastic",
     "ngsolve plan": "basin.ngsolve",
     "ngsolve volume": "basin.ngsolve",
+    "hydroelastic buoy": "buoy.hydroelastic",
+    "capytaine buoy": "buoy.capytaine",
+    "open-flash": "buoy.open_flash",
 }
 
 

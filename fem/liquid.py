@@ -300,17 +300,20 @@ class LiquidSolver:
 
     def solve_all(self, loads: np.ndarray) -> np.ndarray:
         """Return A⁺ ``loads`` for many loads at once, on one process, both of shape (N, loads) in Fortran's order."""
-        for layer in self._closed:
-            own = loads[layer.dofs]
-            loads[layer.dofs] -= np.outer(layer.load, own.sum(axis=0) / layer.measure)
         free, answers = self._local_free, np.zeros(loads.shape, order="F")
-        # The transposed array holds one load after the other.
-        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads.T[:, free].T, comm=PETSc.COMM_SELF)
+        # The transposed arrays hold one load after the other. Only few unknowns are on the moving surfaces.
+        values = loads.T[:, free]
+        moving = [np.arange(len(loads))[layer.dofs][layer.load != 0.0] for layer in self._closed]
+        for layer, rows in zip(self._closed, moving, strict=True):
+            flux = loads[layer.dofs].sum(axis=0) / layer.measure
+            _, places, own = np.intersect1d(free, rows, assume_unique=True, return_indices=True)
+            values[:, places] -= np.outer(flux, layer.load[layer.load != 0.0][own])
+        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=values.T, comm=PETSc.COMM_SELF)
         result = right.duplicate()
         self._solver.getPC().getFactorMatrix().matSolve(right, result)
         answers.T[:, free] = result.getDenseArray().T
-        for layer in self._closed:
-            answers[layer.dofs] -= layer.load @ answers[layer.dofs] / layer.measure
+        for layer, rows in zip(self._closed, moving, strict=True):
+            answers[layer.dofs] -= layer.load[layer.load != 0.0] @ answers[rows] / layer.measure
         self.solves += loads.shape[1]
         return answers
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import (
@@ -43,9 +44,8 @@ def build_pencil(
         The matrices, with the liquid factorized (collective).
     """
     laplace = matrices.laplace
-    names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
     layers = closed_layers(liquid)
-    load = surface_load(liquid, names) if layers else None
+    load = surface_fluxes(liquid, matrices, bodies, surfaces) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     pencil = coupled_pencil(
         liquid,
@@ -59,6 +59,20 @@ def build_pencil(
         closed=layers,
     )
     return replace(pencil, answer=answered(pencil, _FEW))
+
+
+def surface_fluxes(
+    liquid: LiquidSpace, matrices: LiquidMatrices, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]
+) -> np.ndarray:
+    """∫q over all moving surfaces, owned entries (collective)."""
+    load = surface_load(liquid, tuple(dict.fromkeys(body.surface for body in bodies)))
+    for surface, blocks in zip(surfaces, matrices.surfaces, strict=True):
+        # A constant elevation; upwards is into the layer above.
+        elevation, flux = blocks.coupling.createVecs()
+        elevation.set(1.0)
+        blocks.coupling.mult(elevation, flux)
+        load += np.where(liquid.owned_layer_of == surface.above, -1.0, 1.0) * flux.array_r
+    return load
 
 
 def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:

@@ -27,7 +27,7 @@ HIDDEN = 1e-14
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
 # Neighbouring modes that are completed together where the answer of the liquid is known.
-_AT_ONCE = 8
+_AT_ONCE = 5
 
 
 class EigenSolverError(RuntimeError):

@@ -7,6 +7,7 @@ follows the shortest wave among the shapes.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.surfaces import Body, Shapes
+from hydroelastic.fem.surfaces import Body
 
 # Gauss points beyond what the polynomial and half a radian each need; the error then falls faster than exponentially.
 _SPARE_POINTS = 8
@@ -34,11 +35,32 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
         ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
     """
     loads = np.zeros((body.size, len(liquid.layer_of)))
-    for group in facet_groups(liquid, body.surface):
-        at_corner = singular_corner(body, group)
-        for corner in np.unique(at_corner):
-            _add_loads(liquid, body, group.subset(at_corner == corner), int(corner), loads)
+    pieces = [
+        (own, facet_quadrature(liquid, own, body.wavenumber, int(corner)))
+        for group in facet_groups(liquid, body.surface)
+        for corner, own in _by_corner(body, group)
+    ]
+    if pieces:
+        # Each shape is evaluated once for all facets.
+        points, normals = (
+            np.concatenate(part, axis=1) for part in zip(*((one.points, one.normals) for _, one in pieces), strict=True)
+        )
+        values = np.array([body.shapes(points, normals, number) for number in range(body.size)])
+        stops = np.cumsum([quadrature.points.shape[1] for _, quadrature in pieces])[:-1]
+        for (group, quadrature), own in zip(pieces, np.split(values, stops, axis=1), strict=True):
+            # Others vanish on the facet.
+            places = liquid.facet_dofs(group.place)
+            basis = potential_basis(liquid, quadrature.reference)[:, places]
+            parts = quadrature.weights * own.reshape(-1, *quadrature.weights.shape) @ basis
+            np.add.at(loads.T, liquid.space.dofmap.list[group.cells][:, places], parts.transpose(1, 2, 0))
     return liquid.numbering.summed(loads)
+
+
+def _by_corner(body: Body, group: FacetGroup) -> Iterator[tuple[int, FacetGroup]]:
+    """The facets of a group by the number of their corner at which shapes are singular, or −1."""
+    at_corner = singular_corner(body, group)
+    for corner in np.unique(at_corner):
+        yield int(corner), group.subset(at_corner == corner)
 
 
 def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
@@ -102,10 +124,6 @@ class FacetQuadrature:
     normals: np.ndarray
     weights: np.ndarray
 
-    def values(self, shapes: Shapes, number: int) -> np.ndarray:
-        """A function at all points, shape (facets, points)."""
-        return shapes(self.points, self.normals, number).reshape(self.weights.shape)
-
 
 def facet_quadrature(
     liquid: LiquidSpace, group: FacetGroup, wavenumber: float, singular_corner: int
@@ -135,13 +153,3 @@ def facet_quadrature(
         normals=normals.reshape(-1, points.shape[-1]).T,
         weights=measures * weights * liquid.geometry.weight(points[..., 0]),
     )
-
-
-def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
-    quadrature = facet_quadrature(liquid, group, body.wavenumber, singular_corner)
-    # Others vanish on the facet.
-    places = liquid.facet_dofs(group.place)
-    basis = potential_basis(liquid, quadrature.reference)[:, places]
-    values = np.array([quadrature.values(body.shapes, number) for number in range(body.size)])
-    parts = quadrature.weights * values @ basis
-    np.add.at(loads.T, liquid.space.dofmap.list[group.cells][:, places], parts.transpose(1, 2, 0))

@@ -31,7 +31,7 @@ _GROWTH_ALONG = 1.8**0.5 - 1.0
 _ROUNDED_DOWN = 0.01
 # Elements of the same length grow by this part along a line: among triangles that are equal gmsh chooses by rounding,
 # and leaves rows twice as coarse where it does not take one after the other. Measured on 40 tanks with a moved beam.
-_UNEQUAL = 1e-9
+_UNEQUAL = 1e-12
 
 
 def outermost_ring(outline: Outline, graded: GradedPoint, largest_turn: float) -> float:

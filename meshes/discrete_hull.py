@@ -124,4 +124,3 @@ def _loops(curves: list[int]) -> list[list[int]]:
             loop.append(more)
         loops.append(loop)
     return loops
-

@@ -69,6 +69,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
         for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
             gmsh.option.setNumber(f"Mesh.{option}", 0)
         gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
+        # Its points have the sizes of the edges at them.
         gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y) if dim else lc)
         with interrupts_deferred():
             gmsh.model.mesh.generate(2)
@@ -124,10 +125,11 @@ class _Drawing:
 
     def _line(self, line: Line) -> list[int]:
         if line.key not in self._lines:
-            chain = self._chains[line.key] = np.array([self._nodes[point] for point in as_points(line.points)])
-            # gmsh is given them as the first loop passes them.
+            chain = [self._nodes[point] for point in as_points(line.points)]
+            self._chains[line.key] = np.array(chain)
+            # gmsh, whose tags begin with 1, is given them as the first loop passes them.
             way = 1 if line.forward else -1
-            lines = [int(gmsh.model.geo.addLine(a, b)) for a, b in pairwise((chain[::way] + 1).tolist())]
+            lines = [int(gmsh.model.geo.addLine(1 + a, 1 + b)) for a, b in pairwise(chain[::way])]
             for one in lines:
                 gmsh.model.geo.mesh.setTransfiniteCurve(one, 2)
             self._lines[line.key] = [way * one for one in lines[::way]]

@@ -131,9 +131,7 @@ def triangles_of(file: Path, _changed: int) -> Triangles:
         raise MeshError(f"{file} holds no triangles")
     order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     order[tags.astype(np.int64)] = np.arange(len(tags))
-    points, numbers = np.unique(
-        np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True
-    )
+    points, numbers = np.unique(np.round(places.reshape(-1, 3), _digits(places)), axis=0, return_inverse=True)
     triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
     return Triangles(points=points, corners=triangles[distinct])
@@ -199,7 +197,9 @@ def immersed(solid: _Entities, level: float) -> _Entities:
     occ = gmsh.model.occ
     left, front, low, right, back, _ = occ.getBoundingBox(*solid[0])
     pad = right - left + back - front
-    box = occ.addBox(left - pad, front - pad, low - pad, right - left + 2 * pad, back - front + 2 * pad, level - low + pad)
+    box = occ.addBox(
+        left - pad, front - pad, low - pad, right - left + 2 * pad, back - front + 2 * pad, level - low + pad
+    )
     below = [one for one in occ.intersect(solid, [(3, box)])[0] if one[0] == 3]
     if not below:
         raise MeshError("nothing of the hull is below the still level")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,20 @@ class Sources:
         found = np.full(len(points), most)
         self._lower(points, found)
         return found
+
+    def least_at(self, point: complex) -> float:
+        """The least size of all sources at one point, without NumPy."""
+        least = inf
+        for start, span, along, radius, size in self._listed:
+            away = point - start
+            away -= min(max((away * along).real, 0.0), 1.0) * span
+            least = min(least, size + self.growth * max(abs(away) - radius, 0.0))
+        return least
+
+    @cached_property
+    def _listed(self) -> list[tuple[complex, complex, complex, float, float]]:
+        arrays = self.starts, *self._spans, self.radii, self.sizes
+        return list(zip(*(array.tolist() for array in arrays), strict=True))
 
     def _lower(self, points: NDArray[np.complex128], found: NDArray[np.float64]) -> None:
         """Replace sizes found so far by smaller ones; of many sources only the near ones are evaluated."""

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.nearest import Sources
 from hydroelastic.meshes.outline import Curve, Point
 
+# Up to so many sources are evaluated one by one at a single point: NumPy takes longer.
+_FEW = 16
+
 
 @dataclass(frozen=True, kw_only=True)
 class Discs:
@@ -66,6 +69,8 @@ class SizeField:
 
     def __call__(self, x: float, y: float) -> float:
         """Element size at a point."""
+        if len(self._sources.sizes) <= _FEW:
+            return min(self._bulk_size, self._sources.least_at(complex(x, y)))
         return float(self._sources.least(np.array([complex(x, y)]), self._bulk_size)[0])
 
     def along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -98,9 +98,10 @@ def headings_of(columns: Sequence[Column], told: str) -> Row:
     return tuple(found)
 
 
-def rows_of(group: Group, columns: Sequence[Column], places: Sequence[int]) -> list[Row]:
-    """Some rows of columns, with digits by their errors, which are among them; of complex numbers the magnitudes."""
-    whole = {column.quantity.key: column.values for column in columns if not column.places}
+def rows_of(group: Group, columns: Sequence[Column], places: Sequence[int], errors: Sequence[Column] = ()) -> list[Row]:
+    """Some rows of columns, with digits by their errors, which are among them or given; of complex numbers the
+    magnitudes."""
+    whole = {column.quantity.key: column.values for column in (*columns, *errors) if not column.places}
     rows = []
     for place in places:
         values = {key: json_ready(found[place]) for key, found in whole.items()}

@@ -12,6 +12,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
+from hydroelastic.output.pictures.quick_import import import_matplotlib
 from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.quantities import Group
@@ -83,6 +84,7 @@ def write_results(
                     with watch.stage("draw"):
                         report("pictures")
                         (folder / "images").mkdir()
+                        import_matplotlib()
                         try:
                             pictures(folder / "images")
                         except NoRendererError as error:

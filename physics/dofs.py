@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 _BODY, _JOINT = "body_", "__"
+
+
+@cache
+def _kind(name: str) -> str:
+    return name.rpartition(_JOINT)[2].split()[0]
 
 
 class Dof(str):
@@ -43,7 +49,7 @@ class Dof(str):
     @property
     def kind(self) -> str:
         """The name without a number: "heave", "elastic" …"""
-        return self.rpartition(_JOINT)[2].split()[0]
+        return _kind(self)
 
     @property
     def is_elastic(self) -> bool:

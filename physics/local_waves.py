@@ -34,6 +34,11 @@ class LevelPiece:
     restored: bool
     layers: tuple[tuple[float, float], ...]
 
+    @property
+    def dispersion(self) -> tuple[object, ...]:
+        """All but the length."""
+        return self.beam, self.jump, self.restored, self.layers
+
     def squared_frequency(self, wavenumber: float) -> float:
         """λ of a wave: (EI k⁴ + Δρ)/(m + Σ ρⱼ/(k tanh khⱼ)), the beam's terms where there is one."""
         liquid = sum(density / (wavenumber * tanh(wavenumber * depth)) for density, depth in self.layers)
@@ -86,7 +91,10 @@ def _layers_at(tank: Tank, level: StillLevel) -> tuple[tuple[float, float], ...]
 
 def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
     """Approximate number of modes below λ."""
-    return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
+    # Pieces of one dispersion have one wavenumber.
+    alike = {piece.dispersion: piece for piece in pieces}
+    wavenumbers = {dispersion: piece.wavenumber(squared_frequency) for dispersion, piece in alike.items()}
+    return sum(wavenumbers[piece.dispersion] * piece.length / pi for piece in pieces)
 
 
 def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:

@@ -111,9 +111,7 @@ class WettedHull:
 
     def scaled(self, length: float) -> WettedHull:
         """Return it in units of a length."""
-        low, high = (
-            (point[0] / length, point[1] / length, point[2] / length) for point in (self.low, self.high)
-        )
+        low, high = ((point[0] / length, point[1] / length, point[2] / length) for point in (self.low, self.high))
         return replace(
             self, low=low, high=high, hydrostatics=self.hydrostatics.scaled(length), metres=self.metres * length
         )

@@ -82,6 +82,17 @@ TABLES = (
         ),
     ),
     Table(
+        file="buoys",
+        case="buoy",
+        errors=(1e-2, 3e-3, 5e-4, 1e-4, 1e-6),
+        methods=(
+            Method(code="hydroelastic buoy", name="hydroelastic"),
+            Method(code="capytaine buoy", name="Capytaine", variant="without lid"),
+            Method(code="capytaine buoy", name="Capytaine, lid", variant="with lid"),
+            Method(code="open-flash", name="OpenFLASH"),
+        ),
+    ),
+    Table(
         file="hanging_string",
         case="motion",
         errors=(1e-3, 1e-5, 1e-7, 1e-9),

@@ -335,7 +335,7 @@ def list_scenes() -> None:
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
     "--problem",
-    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread", "basin"]),
+    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread", "basin", "buoys"]),
     multiple=True,
     help="Only this one; all by default.",
 )
@@ -353,10 +353,11 @@ def bench(
 ) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, sweeps beside a loop
     over NGSolve, a circle in open water beside Capytaine, a hanging string by series and as a field, flexible threads
-    beside MoorPy and MoorDyn, a basin in three dimensions beside NGSolve.
+    beside MoorPy and MoorDyn, a basin in three dimensions beside NGSolve, heaving buoys beside
+    Capytaine and OpenFLASH.
 
     The others are installed into the cache if they are missing. Writes speed_against_error, sweeps, open_circle,
-    hanging_string, threads and basins, each as .csv and .md, all but sweeps as .png too.
+    hanging_string, threads, basins and buoys, each as .csv and .md, all but sweeps as .png too.
 
     \b
     Example:

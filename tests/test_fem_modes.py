@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations_with_replacement, pairwise
 from math import pi
 from typing import Any
@@ -305,3 +306,21 @@ def test_a_wave_of_the_nth_mode_has_n_half_waves(tanks: Any) -> None:
         wave = np.cos(number * pi * x)
         # Interpolation of degree 8: 1e-8 and below; the mode's amplitude errs like the root of λ's error.
         assert abs(np.corrcoef(elevation, wave)[0, 1]) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "lid"])
+def test_dense_and_sparse_problems_have_the_same_modes_and_counts(tanks: Any, kind: str) -> None:
+    pencil = tanks.solve(scenes_of_each_kind(tanks)[kind], halves=False).field.parts[0].pencil
+    assert pencil.answer is not None
+    dense, sparse = solve_modes(pencil, 4), solve_modes(replace(pencil, answer=None), 4)
+    # Rounding of the lowest mode reaches all others; of ψ, its condition is added.
+    assert dense.eigenvalues == pytest.approx(sparse.eigenvalues, rel=1e-11)
+    for one, other in zip(dense.modes, sparse.modes, strict=True):
+        sign = np.sign(one.body_amplitudes @ other.body_amplitudes)
+        for name in ("displacement", "potential"):
+            first, second = getattr(one, name).array_r, sign * getattr(other, name).array_r
+            assert np.linalg.norm(first - second) < 1e-8 * np.linalg.norm(second), name
+        assert one.energy == pytest.approx(other.energy, abs=1e-9)
+        assert one.residual < 1e-10
+    between = float(np.sqrt(dense.eigenvalues[1] * dense.eigenvalues[2]))
+    assert count_below(pencil, between) == count_below(replace(pencil, answer=None), between) == 2

@@ -23,12 +23,12 @@ BARGE: dict[str, Any] = {
 WAVES = {"kind": "spectrum", "significant_height": 2.0, "peak_period": 8.0}
 
 
-def solved(body: dict[str, Any], analyses: list[dict[str, Any]], **keys: Any) -> Any:
+def solved(body: dict[str, Any], analyses: list[dict[str, Any]], tolerance: float = 1e-3, **keys: Any) -> Any:
     scene = SeaScene(
         liquid=[{"density": 1025.0, "depth": float("inf")}],
         body=[body],
         analysis=analyses,
-        accuracy={"tolerance": 1e-3},
+        accuracy={"tolerance": tolerance},
         **keys,
     )
     solution = solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
@@ -94,8 +94,10 @@ def test_a_narrow_band_drifts_as_a_regular_wave() -> None:
 
 def test_loads_along_a_plate() -> None:
     plate = {"length": 20.0, "flexural_rigidity": 1e8, "mass_per_length": 500.0}
-    (table,) = solved(plate, [WAVES | {"thickness": 1.0, "positions": 31, "highest_omega": 1.3}]).spectrum
+    (table,) = solved(plate, [WAVES | {"thickness": 1.0, "positions": 31}], 1e-2).spectrum
     (loads,) = table.plates
+    # Short waves bend a plate: beyond four times the peak of the spectrum they matter to the loads.
+    assert table.omega[-1] > 4.0 * 2.0 * np.pi / 8.0
     # Free ends.
     assert loads.significant_bending_moment[[0, -1]] == pytest.approx(
         0.0, abs=1e-6 * loads.largest_bending_moment.max()

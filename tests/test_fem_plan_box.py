@@ -10,7 +10,11 @@ import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
 from hydroelastic.fem.inertia import count_below
-from hydroelastic.fem.plan.box import BoxSolution, solve_box
+from hydroelastic.fem.level_bed.interval import IntervalSpace
+from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.plan.box import BoxModel, BoxSolution, solve_box
+from hydroelastic.fem.plan.box_resolution import BoxResolution, graded_nodes
+from hydroelastic.fem.plan.classes import SymmetryClass
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Plate, Rectangle
 
@@ -127,3 +131,31 @@ def test_a_plate_a_millimetre_from_a_wall_keeps_its_tolerance() -> None:
     errors = omega / fine - 1.0
     # The largest one: of the lowest mode, 4e-10, the estimate shows a quarter.
     assert errors.max() < coarse.relative_errors[:8].max() < 1e-6
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_thin_layers_leave_long_waves_their_digits(odd: bool) -> None:
+    # The nodes beside 0.37 lie 1e-9 from it, where hats of neighbours would cancel: they left 1e-7.
+    nodes = graded_nodes(0.0, 1.0, (0.37,), largest=0.25, layers=13)
+    squares, _ = IntervalSpace(nodes=nodes, degree=10, zero_at_end=odd).waves
+    expected = np.pi * (np.arange(1, 6) - (0.5 if odd else 0.0))
+    np.testing.assert_allclose(np.sqrt(squares[int(not odd) :][:5]), expected, rtol=1e-12)
+
+
+def test_the_error_of_a_clamped_plate_is_that_of_more_polynomials() -> None:
+    # The energy in the last polynomials shows 0.1 of it, beside corners between a clamped and a free edge.
+    outline = Rectangle(position=(2.5, 2.0), size=(5.0, 1.5))
+    plate = Plate(outline=outline, flexural_rigidity=1.0, mass_per_area=20.0, edge="clamped")
+    tank = LevelTank(plan=Box(length=10.0, width=4.0), depth=0.5, plates=(plate,), **WATER).scaled()
+    model, coarse = BoxModel(tank=tank), BoxResolution(degree=5, largest=0.1, layers=1, polynomials=(12,))
+    values = []
+    for resolution in (coarse, replace(coarse, polynomials=(26,))):
+        pencil, plates = model.problem(resolution, (None, 0))
+        assert pencil is not None
+        modes = solve_modes(pencil, 4, shapes=0)
+        values.append(modes.eigenvalues[:4])
+        if resolution is coarse:
+            one = SymmetryClass(parity=(None, 0), pencil=pencil, modes=modes)
+            _, estimates = model.errors(resolution, one, plates, [modes.completed(place) for place in range(4)])
+    errors = 0.5 * (values[0] / values[1] - 1.0)
+    assert errors.max() < estimates.max() < 4.0 * errors.max()

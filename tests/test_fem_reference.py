@@ -10,10 +10,16 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
+from mpi4py import MPI
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import body_added_mass
+from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.fem.liquid_matrices import surface_mass_matrix
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank import infinite_frequency
+from hydroelastic.fem.tank.infinite_frequency import infinite_frequency_limit
+from hydroelastic.fem.tank.resolution import infinite_frequency_resolution
 from hydroelastic.modal.liquid.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.tank_estimates import floating_beam
 from hydroelastic.scenes.models.physical import physical_tank
@@ -105,6 +111,25 @@ def test_the_pressure_release_tone_is_the_references(tanks: Any, name: str) -> N
     error = solution.omega(tone.pressure_release) / CASES[name]["psi0"]["elastic_omega"] - 1.0
     # From above, within the tolerance asked and the estimate; the reference keeps 9 digits and more (measured 1e-12).
     assert -1e-11 <= error <= min(1e-6, tone.pressure_release_error + 1e-11)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_the_limit_of_one_beam_needs_no_mesh(tanks: Any, monkeypatch: pytest.MonkeyPatch, hydrostatic: bool) -> None:
+    """The expansion of the added mass against finite elements on rings down to 1e-8 of the beam.
+
+    Measured: 3e-7 apart, of which the mesh says 3e-7 of itself and the expansion 1e-8.
+    """
+    tank = physical_tank(tanks.scene(tanks.beam(start=1.0, hydrostatic=hydrostatic))).scaled()
+    first = infinite_frequency_resolution(tank, 1e-6, expected_tones(tank))
+    (released,) = infinite_frequency_limit(MPI.COMM_WORLD, tank, first, 1e-6, Stopwatch(), half=False).tones
+    monkeypatch.setattr(infinite_frequency, "released_modes", lambda *_: None)
+    (meshed,) = infinite_frequency_limit(MPI.COMM_WORLD, tank, first, 1e-6, Stopwatch(), half=False).tones
+    assert released is not None
+    assert meshed is not None
+    # Both from above; an error of λ is twice that of ω.
+    apart = 0.5 * (meshed.eigenvalue / released.eigenvalue - 1.0)
+    assert 0.0 < apart < meshed.error
+    assert released.error < 0.2 * meshed.error
 
 
 @pytest.mark.slow_on_ranks_but

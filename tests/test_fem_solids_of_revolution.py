@@ -11,7 +11,7 @@ from open_cases import TOO_SMALL, complex_of
 from scipy.special import h1vp, jvp
 from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, solved
 
-from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
+from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, ResonanceRequest, ResponseRequest
 from hydroelastic.fem.open_water.solve import solve_open_water
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.sea import SeaScene
@@ -191,3 +191,32 @@ def test_a_deep_cylinder_scatters_as_one_that_stands_on_the_bed() -> None:
     np.testing.assert_allclose(found, known, atol=1e-4)
     # ½ρgA² (c_g/c) times the width in which the waves lose their momentum.
     assert table.drift_force[0, 0] == pytest.approx(0.6271746654 * DENSITY * GRAVITY * radius, rel=1e-4)
+
+
+@SLOW
+@pytest.mark.parametrize(
+    ("depth", "power", "tail"),
+    [
+        # 6 A_w a₀/(πg²) of p³ ln p.
+        pytest.param(math.inf, 4, 6.0 / GRAVITY**2, id="inf"),
+        # −A_w a₀/(2πgH) of p ln p.
+        pytest.param(2.0, 2, -0.5 / (GRAVITY * 2.0), id="bed"),
+    ],
+)
+def test_a_released_cylinder_moves_as_it_must_in_the_end(depth: float, power: int, tail: float) -> None:
+    """H of the waves that spread in two directions has p² ln p in deep water, and ln p over a bed."""
+    times = (1.0, 4.0, 200.0)
+    (table,) = solved(
+        [{"shape": "cylinder", "radius": 1.0, "draught": 0.5}],
+        depth,
+        1e-5,
+        DecayRequest(heave=1.0, times=times),
+        motions=("heave",),
+    ).decay
+    assert table.tail_power == power
+    assert table.tail == pytest.approx(tail, rel=1e-9)
+    # The Fourier integral of a + ib/ω at 400 real frequencies, which itself is off by less than 3e-6.
+    known = {math.inf: [-0.886678, 0.414045], 2.0: [-0.842711, 0.373752]}[depth]
+    np.testing.assert_allclose(table.displacement[:2, 0], known, atol=5e-6)
+    # Measured: later terms are 1e-2 of it.
+    assert table.displacement[2, 0] * times[2] ** power == pytest.approx(tail, rel=0.05)

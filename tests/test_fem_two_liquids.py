@@ -14,7 +14,10 @@ from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, l
 from petsc4py import PETSc
 
 from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.liquid_matrices import liquid_matrices
+from hydroelastic.fem.liquid_pencil import surface_fluxes
 from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.shape_loads import surface_load
 from hydroelastic.modal.liquid.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.tank import TankScene
@@ -350,3 +353,10 @@ def test_momentum_is_the_coupling_times_the_density() -> None:
 def test_two_processes_find_what_one_finds(top: LayerTop) -> None:
     beams = (interface_beam(start=0.1, length=0.2), interface_beam(start=0.2, length=0.3, at="surface"))
     check_processes(layered(*beams[: 1 if top == "rigid" else 2], top=top))
+
+
+def test_the_flux_of_an_elevation_is_that_of_the_surface_in_both_liquids() -> None:
+    (pencil,) = pencils(layered(interface_beam(start=0.2), top="free"))
+    liquid, names = pencil.liquid, ("body_1", "interface", "free_surface")
+    fluxes = surface_fluxes(liquid, liquid_matrices(liquid, pencil.surfaces), pencil.bodies, pencil.surfaces)
+    assert fluxes == pytest.approx(surface_load(liquid, names), abs=1e-15)

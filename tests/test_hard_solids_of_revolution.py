@@ -1,4 +1,4 @@
-"""Hard cases of solids of revolution in the open sea, with true errors: from tighter solutions, references, theorems."""
+"""Hard cases of solids of revolution in the open sea, with true errors: by tighter solutions, references, theorems."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from open_cases import TOO_SMALL
 from scipy.special import h1vp, jvp
-from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, solved
+from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, problem_of, solved
 
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
+from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.results import RadiationTable
+from hydroelastic.scenes.errors import SceneError
 
 pytestmark = pytest.mark.slow
 
@@ -30,14 +32,29 @@ SPAR_IN_RING = [cylinder(1.0, 2.0), cylinder(3.0, 0.5, inner_radius=2.0)]
 # Bodies, depth, ω, motions.
 HARD: dict[str, tuple[list[dict[str, Any]], float, float, tuple[str, ...]]] = {
     "a gap of a hundredth of the radius under a deep float": ([cylinder(1.0, 0.99)], 1.0, 2.0, MOTIONS),
-    "a ring as thin as a two-hundredth of its radius": ([cylinder(10.0, 0.1, inner_radius=9.95)], 5.0, 1.5, MOTIONS[:2]),
+    "a ring as thin as a two-hundredth of its radius": (
+        [cylinder(10.0, 0.1, inner_radius=9.95)],
+        5.0,
+        1.5,
+        MOTIONS[:2],
+    ),
     "long waves, Ka = 1e-3": ([SPHERE], math.inf, math.sqrt(1e-3 * GRAVITY), MOTIONS[:2]),
     "short waves, Ka = 20": ([SPHERE], math.inf, math.sqrt(20.0 * GRAVITY), MOTIONS[:2]),
     "short waves beside corners, Ka = 20": ([cylinder(1.0, 0.5)], 2.0, math.sqrt(20.0 * GRAVITY), MOTIONS),
     "the resonance of a moon pool": ([cylinder(1.0, 0.5, inner_radius=0.6)], 3.0, 3.25, MOTIONS[:2]),
     "sloshing between spar and ring, order 1": (SPAR_IN_RING, 8.0, 1.9036, MOTIONS[:2]),
     "sloshing between spar and ring, order 0": (SPAR_IN_RING, 8.0, 3.42, MOTIONS[:2]),
-    "bodies that touch": ([cylinder(1.0, 2.0), cylinder(2.0, 0.5, inner_radius=1.0)], 4.0, 2.0, MOTIONS[:2]),
+    "a compound of two steps": (
+        [
+            {
+                "shape": "revolved",
+                "outline": [[0.0, -2.0], [1.0, -2.0], [1.0, -0.5], [2.0, -0.5], [2.0, 0.5], [0.0, 0.5]],
+            }
+        ],
+        4.0,
+        2.0,
+        MOTIONS[:2],
+    ),
     "kH = 0.01": ([cylinder(1.0, 0.5)], 1.0, 0.01 * math.sqrt(GRAVITY), MOTIONS[:2]),
     "kH = 100": ([cylinder(1.0, 0.5)], 10.0, math.sqrt(10.0 * GRAVITY), MOTIONS[:2]),
 }
@@ -86,18 +103,20 @@ def test_short_waves_about_a_pile_have_all_orders_up_to_twelve() -> None:
 
 @pytest.mark.parametrize("depth_in_radians", [0.01, 0.1, 1.0, 10.0, 100.0])
 def test_no_power_is_lost_or_reflected_by_the_truncation(depth_in_radians: float) -> None:
-    """|1 + 2aₙ|² = 1 of all orders up to 8 to 1e-7, of a cylinder of kH from 0.01 to 100."""
+    """|1 + 2aₙ|² = 1 of orders up to 8 to 1e-7, of a cylinder in waves of kH from 0.01 to 100."""
     depth = 2.0
     wavenumber = depth_in_radians / depth
     omega = math.sqrt(GRAVITY * wavenumber * math.tanh(depth_in_radians))
-    radius = max(1.0, 6.0 / wavenumber) if wavenumber < 6.0 else 1.0
-    (table,) = solved(
-        [cylinder(radius, 1.0)], depth, 1e-7, ResponseRequest(omega=(omega,)), motions=("heave", "surge")
-    ).response
-    waves = table.partial_waves
-    assert waves is not None
-    assert waves.shape[-1] >= 9
-    np.testing.assert_allclose(np.abs(1.0 + 2.0 * waves[0, 0, 0, :9]) ** 2, 1.0, atol=1e-7)
+    radius = min(6.0 / wavenumber, 20.0)
+    problem = problem_of([cylinder(radius, min(1.0, radius))], depth, 1e-7, motions=("heave", "surge"))
+    for order in (0, 1, 2, 4, 8):
+        table = solve_response(problem.of_order(order), ResponseRequest(omega=(omega,))).table
+        assert abs(table.energy_residual[0, 0]) < 1e-7
+
+
+def test_bodies_that_touch_are_refused_in_words() -> None:
+    with pytest.raises(SceneError, match="overlaps or touches"):
+        problem_of([cylinder(1.0, 2.0), cylinder(2.0, 0.5, inner_radius=1.0)], 4.0, 1e-3, motions=("heave",))
 
 
 def test_identities_hold_to_eight_digits() -> None:
@@ -132,7 +151,7 @@ def test_a_float_between_two_liquids_radiates_what_it_loses() -> None:
     """Both waves together: energy and Haskind, and symmetric matrices."""
     liquids = [{"density": DENSITY, "depth": 3.0}, {"density": 0.9 * DENSITY, "depth": 2.0}]
     (table,) = solved([cylinder(1.0, 0.5)], 3.0, 1e-6, RadiationRequest(omega=(0.8,)), liquid=liquids).radiation
-    assert table.waves == ("surface", "internal")
+    assert table.waves == ("internal", "surface")
     assert table.energy_residual[0] < 1e-5
     assert table.haskind_residual[0] < 1e-5
     found = hydrodynamic(table)

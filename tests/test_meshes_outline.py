@@ -25,9 +25,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.build import build_mesh
+from hydroelastic.meshes.curve_nodes import straight_elements
 from hydroelastic.meshes.edges import edges_of
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.meshes.size_field import SizeField
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 BEAM = "body_1"
@@ -73,7 +75,7 @@ ENDS = ((0.3, 0.0), (0.7, 0.0))
 # Both sides of what is cut open count.
 CASES = {
     "two liquids": Case(
-        two_liquids(left=[(1.0, INTERFACE)]), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0} | walls(), smallest_angle=27.0
+        two_liquids(left=[(1.0, INTERFACE)]), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0} | walls(), smallest_angle=24.0
     ),
     "beam": Case(
         two_liquids(left=BEAM_PIECES, rings=ENDS), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 1.2, BEAM: 0.8} | walls()
@@ -324,3 +326,16 @@ def test_corners_beside_one_another_have_rings_that_fit() -> None:
     edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[BEAM]]]
     # The outermost rings reach to 0.45 of the way; between them one element is left.
     assert np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max() < 0.45 * 0.01
+
+
+def test_no_small_size_on_a_line_is_overlooked() -> None:
+    """A size of 1e-6 at one point of a line is found wherever it is; elements grow by a third of the distance."""
+    starts, ends = np.array([[0.0, 0.0]]), np.array([[1.0, 0.0]])
+    for place in np.random.default_rng(3).uniform(0.05, 0.95, 8):
+        size = SizeField(bulk_size=0.25, growth=0.7, straight=[], rings=[((float(place), 0.0), 1e-6)], bends=[])
+        (parts,) = straight_elements(starts, ends, size)
+        lengths = np.diff(parts)
+        assert lengths[np.searchsorted(parts, place) - 1] < 2e-6
+        # Neighbours differ by a factor of 1 + 0.34 and a little.
+        assert np.exp(np.abs(np.diff(np.log(lengths))).max()) < 1.5
+        assert lengths.max() <= 0.25

@@ -18,7 +18,7 @@ from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
 from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
 from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
 from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies, bodies_of_tables
-from hydroelastic.physics.dofs import Dof
+from hydroelastic.physics.dofs import Dof, Turn
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import SeaScene
 from hydroelastic.scenes.models.physical import physical_tank
@@ -250,6 +250,66 @@ def test_capytaine_finds_the_motions_in_waves(bodies: WholeBodies, tmp_path: Pat
         np.testing.assert_allclose(found, expected, rtol=1e-10)
 
 
+SOLIDS = (Dof("body_1__heave"), Turn("body_1__pitch"), Dof("body_2__surge"))
+
+
+@pytest.fixture(scope="module")
+def solids(section: SimpleNamespace) -> WholeBodies:
+    """The same numbers of a cylinder in heave and pitch, and of a ring around it in surge."""
+    body: dict[str, Any] = {"kind": "float", "shape": "cylinder", "draught": 0.5}
+    spar = body | {"radius": 1.0, "motions": ["heave", "pitch"], "vertical_centre_of_gravity": -0.3}
+    ring = body | {"radius": 4.0, "inner_radius": 2.0, "motions": ["surge"]}
+    radiation = replace(section.radiation, dofs=SOLIDS)
+    # Heave is of another order than surge and pitch.
+    for name in ("added_mass", "radiation_damping"):
+        values = getattr(radiation, name).copy()
+        values[:, 0, 1:] = values[:, 1:, 0] = 0.0
+        radiation = replace(radiation, **{name: values})
+    impulse = SimpleNamespace(**vars(section.impulse) | {"dofs": SOLIDS})
+    return bodies_of_tables(physical_tank(scene(body=[spar, ring])), [radiation], [], [cast(Any, impulse)])
+
+
+def test_a_solid_of_revolution_has_sway_and_roll_as_surge_and_pitch(
+    section: SimpleNamespace, solids: WholeBodies
+) -> None:
+    heave, roll, pitch, surge, sway = 2, 3, 4, 6, 7
+    given = section.radiation
+    assert np.flatnonzero(solids.modelled).tolist() == [heave, roll, pitch, surge, sway]
+    mass = solids.added_mass[0]
+    assert mass[heave, heave] == given.added_mass[1, 0, 0]
+    assert mass[roll, roll] == mass[pitch, pitch] == given.added_mass[1, 1, 1]
+    # About the y axis x turns to −z, about the x axis y turns to z.
+    assert mass[surge, pitch] == -given.added_mass[1, 2, 1]
+    assert mass[sway, roll] == given.added_mass[1, 2, 1]
+    assert mass[sway, pitch] == mass[surge, roll] == mass[heave, pitch] == 0.0
+    # Waves along x.
+    np.testing.assert_array_equal(solids.excitation_force[:, :, [roll, sway]], 0.0)
+    np.testing.assert_array_equal(solids.excitation_force[2, 1, pitch], -given.excitation_force[0, 0, 1, 1])
+    cylinder, ring = solids.bodies
+    assert cylinder.volume == pytest.approx(0.5 * np.pi, rel=1e-12)
+    assert ring.waterplane_area == pytest.approx(12.0 * np.pi, rel=1e-12)
+    assert cylinder.centre_of_gravity == pytest.approx((0.5, 0.0, -0.3))
+    assert solids.stiffness.shape == solids.inertia.shape == (12, 12)
+
+
+def test_files_of_solids_are_read_back(solids: WholeBodies, tmp_path: Path) -> None:
+    write_wamit(solids, tmp_path, "solids")
+    agrees(read_wamit(tmp_path, "solids", 12)[0], solids)
+    write_bemio(solids, tmp_path / "solids.h5")
+    agrees(read_bemio(tmp_path / "solids.h5", 2), solids)
+    write_capytaine(solids, tmp_path / "solids.nc")
+    with xarray.open_dataset(tmp_path / "solids.nc") as dataset:
+        assert dataset.radiating_dof.values.tolist() == [
+            *("body_1__Heave", "body_1__Roll", "body_1__Pitch", "body_2__Surge", "body_2__Sway")
+        ]
+        own = np.flatnonzero(solids.modelled)
+        np.testing.assert_array_equal(
+            dataset.added_mass.transpose("omega", "influenced_dof", "radiating_dof"),
+            solids.added_mass[:, own[:, None], own],
+        )
+        assert dataset.hydrostatic_stiffness.shape == (5, 5)
+
+
 EXPORT = {"formats": ["wamit"], "width": 3.0}
 IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
 
@@ -258,6 +318,7 @@ IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
     ("changes", "words"),
     [
         ({"export": {"formats": ["wamit"]}}, "width"),
+        ({"export": EXPORT, "body": [{"kind": "float", "shape": "sphere", "radius": 1.0}]}, "solids of revolution"),
         ({"export": {"formats": ["wamit", "wamit"], "width": 1.0}}, "named twice"),
         ({"export": {"formats": ["hydrostar"], "width": 1.0}}, "formats"),
         ({"export": EXPORT, "analysis": []}, "analysis of radiation"),

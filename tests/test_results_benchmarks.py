@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from hydroelastic.benchmarks import output
+from hydroelastic.benchmarks.buoy.cases import BUOYS, buoy_cases
+from hydroelastic.benchmarks.buoy.report import BUOY_COLUMNS
 from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
@@ -91,6 +93,21 @@ def test_hydroelastic_kept_every_tolerance_of_the_circle(circle_rows: list[dict[
 def test_page_and_figure_of_the_circle_are_there() -> None:
     assert "not a comparison of like with like" in (FOLDER / f"{output.CIRCLE.name}.md").read_text(encoding="utf-8")
     assert (FOLDER / f"{output.CIRCLE.name}.png").stat().st_size > 10_000
+
+
+def test_every_buoy_was_measured_and_every_tolerance_kept() -> None:
+    with (FOLDER / f"{output.BUOYS.name}.csv").open(encoding="utf-8", newline="") as file:
+        found = list(csv.DictReader(file))
+    assert tuple(found[0]) == BUOY_COLUMNS
+    keys = ("panels", "terms", "tolerance")
+    assert [(row["code"], row["buoy"], row["variant"], *(float(row[key] or 0.0) for key in keys)) for row in found] == [
+        (case.code, case.tank, case.variant, case.panels, case.terms, case.tolerance)
+        for buoy in BUOYS
+        for case in buoy_cases(buoy, quick=False)
+    ]
+    own = [row for row in found if row["code"] == "hydroelastic buoy"]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in own)
+    assert (FOLDER / f"{output.BUOYS.name}.png").stat().st_size > 10_000
 
 
 @pytest.fixture(scope="module")

@@ -143,6 +143,7 @@ def test_the_least_of_many_sources_is_found_among_a_few(monkeypatch: pytest.Monk
     expected = sources._values(points)
     asked = counted_sources(monkeypatch)
     assert np.array_equal(sources.least(points, 10.0), expected)
+    assert [sources.least_at(point) for point in points.tolist()] == pytest.approx(expected, rel=1e-14)
     # 160 of 1000 are asked for a point on average.
     assert sum(asked) < 50 * 250
     assert sources.least(points, 1e-9).tolist() == [1e-9] * 50

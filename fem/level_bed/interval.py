@@ -99,7 +99,7 @@ class IntervalSpace:
         points = self.degree + self.spare_points
         _, weights = self.quadrature(cells, points)
         table = _reference(self.degree, gauss(points)[0])
-        return self._assembled(cells, np.einsum("eq,iq,jq->eij", weights, table, table, optimize=True))
+        return self._assembled(cells, (weights[:, None, :] * table) @ table.T)
 
     @cached_property
     def mass(self) -> FloatArray:
@@ -114,13 +114,18 @@ class IntervalSpace:
     @cached_property
     def stiffness(self) -> FloatArray:
         """∫∇u·∇v, with the second direction, shape (N, N)."""
+        along, across = self._gradients
+        return self._assembled(self.cells, along + across)
+
+    @cached_property
+    def _gradients(self) -> tuple[FloatArray, FloatArray]:
+        """∫u'v' and the part of the second direction on each cell, each of shape (cells, p + 1, p + 1)."""
         points = self.degree + self.spare_points
         places, weights = self.quadrature(self.cells, points)
         table, slopes = (_reference(self.degree, gauss(points)[0], slope=slope) for slope in (False, True))
         along = weights * (2.0 / np.diff(self.nodes)[:, None]) ** 2
-        blocks = np.einsum("eq,iq,jq->eij", along, slopes, slopes, optimize=True)
         across = weights * self.transverse_squares(places)
-        return self._assembled(self.cells, blocks + np.einsum("eq,iq,jq->eij", across, table, table, optimize=True))
+        return (along[:, None, :] * slopes) @ slopes.T, (across[:, None, :] * table) @ table.T
 
     def _assembled(self, cells: np.ndarray, blocks: FloatArray) -> NDArray[np.float64]:
         whole = np.zeros((self.size + 1, self.size + 1))
@@ -171,17 +176,68 @@ class IntervalSpace:
         return table[:-1]
 
     @cached_property
+    def _hierarchy(self) -> tuple[FloatArray, FloatArray]:
+        """Hats as wide as intervals halved again and again: values at the kept nodes, and slopes on the cells.
+
+        The first ones are 1 and the linear function. The others have slopes without a mean: ∫u'v' is diagonal, but for
+        the weight.
+        """
+        nodes, last = self.nodes, len(self.nodes) - 1
+        values, slopes = [], []
+
+        def add(value: FloatArray, slope: FloatArray) -> None:
+            values.append(value[int(self.zero_at_start) : last + 1 - int(self.zero_at_end)])
+            slopes.append(slope)
+
+        if not (self.zero_at_start or self.zero_at_end):
+            add(np.ones(last + 1), np.zeros(last))
+        length = nodes[-1] - nodes[0]
+        sign = -1.0 if self.zero_at_end else 1.0
+        add((nodes - nodes[-1] if self.zero_at_end else nodes - nodes[0]) * sign / length, np.full(last, sign / length))
+        halved = [(0, last)]
+        for first, end in halved:
+            middle = (first + end) // 2
+            if middle > first:
+                up, down = nodes[middle] - nodes[first], nodes[end] - nodes[middle]
+                value, slope = np.zeros(last + 1), np.zeros(last)
+                value[first : middle + 1] = (nodes[first : middle + 1] - nodes[first]) / up
+                value[middle : end + 1] = (nodes[end] - nodes[middle : end + 1]) / down
+                slope[first:middle], slope[middle:end] = 1.0 / up, -1.0 / down
+                add(value, slope)
+                halved += [(first, middle), (middle, end)]
+        return np.array(values), np.array(slopes)
+
+    @cached_property
     def waves(self) -> tuple[FloatArray, FloatArray]:
         """k² and V with ∫∇u·∇v = k² ∫uv and ∫v² = 1: the standing waves, ascending, shape (N,) and (N, N).
 
         That of k = 0, if there is one, is exact. On graded cells the largest k² exceed the lowest by 10¹⁵: the inverse
-        problem keeps the digits of the latter, and norms of the vectors those of the former.
+        problem keeps the digits of the latter, and norms of the vectors those of the former. A cell of the size h would
+        add ε/h to k² where a smooth function has nearly the same values at both its ends; in `_hierarchy` it has
+        slopes of its own.
         """
-        shift = 1.0 / (self.nodes[-1] - self.nodes[0]) ** 2
-        _, vectors = eigh(self.mass, self.stiffness + shift * self.mass)
+        (values, slopes), (along, across) = self._hierarchy, self._gradients
+        hats, lengths = self.hats, np.diff(self.nodes)
+
+        def turned(nodal: FloatArray) -> FloatArray:
+            nodal = nodal.copy()
+            nodal[:hats] = values @ nodal[:hats]
+            nodal[:, :hats] = nodal[:, :hats] @ values.T
+            return nodal
+
+        stiffness = self._assembled(self.cells, along)
+        stiffness[:hats, :hats] = (slopes * (along[:, 1, 1] * lengths**2)) @ slopes.T
+        bubbles = (slopes[:, :, None] * (along[:, 1, 2:] * lengths[:, None])).reshape(hats, -1)
+        stiffness[:hats, hats:], stiffness[hats:, :hats] = bubbles, bubbles.T
+        if across.any():
+            stiffness += turned(self._assembled(self.cells, across))
+        shift, mass = 1.0 / (self.nodes[-1] - self.nodes[0]) ** 2, turned(self.mass)
+        _, vectors = eigh(mass, stiffness + shift * mass)
         vectors = vectors[:, ::-1]
+        squares = (vectors * (csr_matrix(stiffness) @ vectors)).sum(axis=0)
+        vectors[:hats] = values.T @ vectors[:hats]
         norms = (vectors * (self.sparse_mass @ vectors)).sum(axis=0)
-        squares = (vectors * (csr_matrix(self.stiffness) @ vectors)).sum(axis=0) / norms
+        squares /= norms
         if self.holds_constant:
             squares[0] = 0.0
         return squares, vectors / np.sqrt(norms)

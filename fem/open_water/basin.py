@@ -116,7 +116,7 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         drawn: for a basin that contains the length of the scene, as a picture needs it: largest distance from the
             bodies to each side, in radians of the shortest wave. ``None`` for forces and motions alone.
     """
-    left, right, low, high = _extent(water)
+    left, right, low, high = extent_of_bodies(water)
     solid = water.geometry.is_revolved
     extent = max(right if solid else 0.5 * (right - left), -low, high)
     margin = _MARGIN * extent
@@ -162,8 +162,9 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
     )
 
 
-def _extent(water: Tank) -> tuple[float, float, float, float]:
-    """Smallest and largest x, smallest and largest y of all bodies, and the still levels at which they float."""
+def extent_of_bodies(water: Tank) -> tuple[float, float, float, float]:
+    """Return smallest and largest x, smallest and largest y of all bodies, and of the still levels at which they
+    float."""
     bounds = []
     for index, body in enumerate(water.bodies):
         (left, right), height = body.waterplane, water.level_of(index).height

@@ -16,7 +16,7 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
 from hydroelastic.fem.open_water.radiation import between
 from hydroelastic.fem.open_water.solver import OpenSolver
-from hydroelastic.fem.open_water.sweep import Swept
+from hydroelastic.fem.open_water.sweep import SHARE, Problem, Swept, sweep
 
 # Most frequencies in the end.
 _MOST = 1500
@@ -56,6 +56,30 @@ class Curves:
             found[place], residual = self.solver.response_between(float(union[place]), self.incident)
             errors[place] += self.ratio * residual**2
         return replace(self, omegas=union, responses=[found[place] for place in range(len(union))], errors=errors)
+
+    @property
+    def motions(self) -> np.ndarray:
+        """Motions per elevation of the only incident wave, shape (n, body unknowns)."""
+        return np.array([_motions_of(response)[0] for response in self.responses])
+
+
+def certified_curves(
+    solver: OpenSolver, incident: list[int], omegas: np.ndarray, problem: Problem[OpenResponse], tolerance: float
+) -> Curves:
+    """Return refined curves by a reduced basis that is accurate at all of their frequencies (collective).
+
+    Args:
+        solver: of the problem.
+        incident: indices of the incident waves.
+        omegas: frequencies to begin with, rad/s, shape (n,).
+        problem: solves at a frequency.
+        tolerance: of what `Problem.difference` compares, and of the splines, see `refined_curves`.
+    """
+    curves = refined_curves(solver, incident, omegas, sweep(problem, omegas, tolerance), tolerance)
+    if curves.errors.max() <= SHARE * tolerance:
+        return curves
+    swept = sweep(problem, curves.omegas, tolerance)
+    return replace(curves, responses=swept.solutions, errors=swept.errors)
 
 
 def refined_curves(

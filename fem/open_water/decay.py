@@ -15,7 +15,7 @@ Source: form (C) of the thin float, `modal.thin_float_decay`, with H of the exac
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import pi, tan
+from math import isinf, pi, tan
 
 import numpy as np
 
@@ -294,21 +294,39 @@ def _table(
         initial=scale.amplitudes(_initial(model, request)) * factor,
         absolute_error=errors * factor,
         tail=_tail(request, model, slow),
+        tail_power=4 if _spreads_in_deep_water(model) else 2,
         certified_until=float(times.max()),
     )
 
 
 def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
-    """T of the asymptotic tail a ~ T/t² of the released motion, m s² or rad s²; ``None`` over a bed, if two motions
-    were released, and of solids, whose waves spread and leave a shorter tail."""
-    mixed = request.heave != 0.0 and request.roll != 0.0
-    if mixed or slow is None or model.basin.tank.geometry.is_revolved:
-        return None
+    """T of the asymptotic tail a ~ T/t² of the released motion, m s² or rad s², or T/t⁴ about an axis in deep water.
+
+    ``None`` for sections over a bed, if two motions were released, and about an axis for pitch and between two liquids.
+    """
+    tank = model.basin.tank
     initial = _initial(model, request)
+    if request.heave != 0.0 and request.roll != 0.0:
+        return None
+    if tank.geometry.is_revolved:
+        if tank.geometry.order > 0 or len(tank.layers) > 1:
+            return None
+        # Long waves lift bodies by their buoyancy f: b/ω is ω²ffᵀ/(2ρg³) in deep water, and ffᵀ/(4ρg²H) over a bed.
+        lift = np.concatenate([body.stiffness for body in model.pencil.bodies])
+        slow = np.outer(lift, lift) / (2.0 if _spreads_in_deep_water(model) else 4.0 * model.basin.depths[0])
+    if slow is None:
+        return None
     restored = np.flatnonzero(np.diag(model.stiffness) > 0.0)
     own = np.ix_(restored, restored)
     tail = np.zeros(len(initial))
-    tail[restored] = -2.0 / pi * np.linalg.solve(model.stiffness[own], slow[own] @ initial[restored])
-    seconds = model.basin.units.frequency**-2
+    # p ln p is that of 1/t², and p³ ln p that of 6/t⁴.
+    factor = 12.0 / pi if _spreads_in_deep_water(model) else -2.0 / pi
+    tail[restored] = factor * np.linalg.solve(model.stiffness[own], slow[own] @ initial[restored])
+    seconds = model.basin.units.frequency ** (-4 if _spreads_in_deep_water(model) else -2)
     motions = model.scale.amplitudes(tail) * model.basin.units.length * seconds
     return float(motions[np.argmax(np.abs(model.scale.amplitudes(initial)))])
+
+
+def _spreads_in_deep_water(model: OpenModel) -> bool:
+    """Whether waves spread in two directions, on deep water."""
+    return model.basin.tank.geometry.is_revolved and isinf(model.basin.depths[0])

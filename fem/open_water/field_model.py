@@ -12,7 +12,14 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.liquid import LiquidSpace, liquid_space
-from hydroelastic.fem.open_water.basin import CUT, AbsorbingLayer, OpenBasin, open_basin, sized_absorbing_layer
+from hydroelastic.fem.open_water.basin import (
+    CUT,
+    AbsorbingLayer,
+    OpenBasin,
+    extent_of_bodies,
+    open_basin,
+    sized_absorbing_layer,
+)
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
@@ -127,6 +134,17 @@ class OpenModel:
     def far_field(self) -> FarField:
         """Far-field fluxes, from which the amplitudes of outgoing waves follow (collective)."""
         return FarField(self.pencil, *self.basin.bounds)
+
+    @cached_property
+    def near_field(self) -> FarField:
+        """The same half as far from the bodies (collective)."""
+        (low, floor), (high, ceiling) = self.basin.bounds
+        left, right, bottom, top = extent_of_bodies(self.basin.tank)
+        return FarField(
+            self.pencil,
+            (0.5 * (low + left), 0.5 * (floor + bottom)),
+            (0.5 * (high + right), 0.5 * (ceiling + top)),
+        )
 
     @cached_property
     def stiffness(self) -> np.ndarray:

@@ -126,7 +126,7 @@ class OpenResponse:
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
         fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ of these waves, shape (incident, free unknowns).
+        potentials: returns ψ of these waves, shape (incident, free unknowns), with motions like `motions`.
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
         equations: from which the motions follow, without drag.
@@ -137,7 +137,7 @@ class OpenResponse:
     incidence: Incidence
     incident: list[int]
     fluxes: np.ndarray
-    potentials: Callable[[], np.ndarray]
+    potentials: Callable[[np.ndarray], np.ndarray]
     motions: np.ndarray
     absorbed: np.ndarray
     equations: BodyEquations
@@ -145,7 +145,7 @@ class OpenResponse:
     @cached_property
     def scattered(self) -> np.ndarray:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
-        return self.potentials()
+        return self.potentials(self.motions)
 
     def outgoing(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident).
@@ -207,13 +207,47 @@ class OpenResponse:
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.
             return np.zeros(len(self.incident))
-        outgoing = self.outgoing(motions)
-        planes, powers = self.incidence.planes, self.incidence.powers
-        momenta = 0.5 * self.squared.real * np.array([plane.wave.wavenumber for plane in planes]) * powers
-        directions = np.array([plane.direction for plane in planes if isinstance(plane, Plane)])
+        momenta = 0.5 * self.squared.real * self._towards * self._wavenumbers * self.incidence.powers
         # Waves that leave to the left push to the right.
-        force: np.ndarray = (-directions * momenta) @ np.abs(outgoing) ** 2 + (directions * momenta)[self.incident]
+        force: np.ndarray = momenta[self.incident] - momenta @ np.abs(self.outgoing(motions)) ** 2
         return force
+
+    def near_field_drift(self, incident: int = 0) -> float:
+        """Return the drift force of one incident wave, by its number in the response, from the field beside the bodies
+        (collective); in one liquid."""
+        wave = self.incidence.planes[self.incident[incident]]
+        return self.model.near_field.drift_force(self.squared.real, self.scattered[incident], wave.field)
+
+    def drift_error(self, error: float, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return the error of the drift force, shape (incident,).
+
+        With the incident power for that of all outgoing waves, F = Σ (k ∓ kⱼ) Pⱼ|cⱼ|²/2ω + (k/2ω)(power lost); the
+        transmitted wave of one surface does not count, and R has the relative error of R².
+
+        Args:
+            error: of the amplitudes of outgoing waves, relative to the incident one.
+            motions: see `drift_force`.
+        """
+        if self.incidence.directions == 1:
+            return np.zeros(len(self.incident))
+        powers, towards = self.incidence.powers, self._towards
+        incoming = powers[self.incident]
+        amplitudes = np.abs(self.outgoing(motions))
+        own, other = self._wavenumbers[self.incident], self._wavenumbers[:, None]
+        arms = np.abs(own - np.outer(towards, towards[self.incident]) * other)
+        waves = (2.0 * arms * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0)
+        lost = np.abs(incoming - powers @ amplitudes**2)
+        total: np.ndarray = (waves + 2.0 * own * lost) * error + own * incoming * np.abs(self.energy_residual())
+        return 0.5 * self.squared.real * total
+
+    @property
+    def _wavenumbers(self) -> np.ndarray:
+        return np.array([plane.wave.wavenumber for plane in self.incidence.planes])
+
+    @property
+    def _towards(self) -> np.ndarray:
+        """1 of waves to the right, −1 of those to the left, shape (waves,)."""
+        return np.array([plane.direction for plane in self.incidence.planes if isinstance(plane, Plane)])
 
     @property
     def absorption(self) -> np.ndarray:

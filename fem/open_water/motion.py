@@ -29,7 +29,8 @@ class MotionSolution:
     Attributes:
         table: the results in SI units.
         model: the last field model.
-        error: the largest relative error of forces, added mass and causality.
+        error: the largest error of a motion, relative to the largest in the same unit: by those of forces, of added
+            mass and damping, and of causality.
     """
 
     table: MotionTable
@@ -75,7 +76,10 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
     )
     displacement, velocity = bodies.motion(forces, times, _STEPS * problem.tolerance)
     turning = np.exp(-1j * np.outer(times, omega))
-    error = max(radiation.error, water.error, float(water.causality_error.max()))
+    errors = bodies.errors(forces, max(radiation.error, water.error, float(water.causality_error.max())))
+    sizes = np.abs(bodies.steady(forces)).sum(axis=0)
+    turns = np.array([dof.is_rotation for dof in table.dofs])
+    error = max(float(errors[turns == turn].max() / sizes[turns == turn].max()) for turn in set(turns.tolist()))
     return MotionSolution(
         table=MotionTable(
             times=times,

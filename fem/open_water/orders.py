@@ -47,12 +47,7 @@ Solution = TypeVar(
 def solve_by_order(
     problem: OpenWaterProblem, request: Request, memory: Memory
 ) -> (
-    RadiationSolution
-    | ResponseSolution
-    | ResonanceSolution
-    | DecaySolution
-    | ImpulseResponseSolution
-    | MotionSolution
+    RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution | ImpulseResponseSolution | MotionSolution
 ):
     """Solve an analysis for the orders that it needs, and join them (collective)."""
     match request:
@@ -136,9 +131,16 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
     peaks = [peak for table in tables for peak in table.missed_peaks]
     first = tables[0]
     if len(first.waves) > 1:
-        drift = np.full(len(first.omega), np.nan)
+        drift, drift_error = np.full((2, len(first.omega)), np.nan)
     else:
-        drift = drift_of_orders(problem.tank, first.omega, first.wavenumbers[:, 0], waves[:, 0, 0])
+        drift, drift_error = drift_of_orders(
+            problem.tank,
+            first.omega,
+            first.wavenumbers[:, 0],
+            waves[:, 0, 0],
+            np.array([table.relative_error for table in tables]).T,
+            np.array([table.energy_residual[:, 0] for table in tables]).T,
+        )
         drift = direction_of(first.waves_from) * drift
     return replace(
         first,
@@ -146,12 +148,15 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=waves,
         drift_force=drift[:, None],
+        drift_error=drift_error[:, None],
         absorption=np.sum(
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),
+        # Each order has a curve at frequencies of its own; drawn are those that were asked for.
+        curve=None,
     )
 
 
@@ -205,7 +210,7 @@ def _solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolut
         displacement=_by_dof(dofs, [(one.dofs, one.displacement) for one in tables]),
         initial=_by_dof(dofs, [(one.dofs, one.initial) for one in tables]),
         absolute_error=np.max([one.absolute_error for one in tables], axis=0),
-        tail=None,
+        tail=tables[0].tail if len(tables) == 1 else None,
         certified_until=min(one.certified_until for one in tables),
     )
     return replace(_largest(found), table=table, error=_error(found), solved=sum(one.solved for one in found))

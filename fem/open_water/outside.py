@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from hydroelastic.fem.open_water.basin import OpenBasin
@@ -18,8 +20,16 @@ def outside_of(basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[At
         bodies: all of its bodies, in their order.
         attachments: in SI units, in the coordinates of the open water.
     """
+    paths = list(attachment_paths(basin, bodies, attachments))
+    return outside_forces(paths, [one.scaled(basin.units) for one in attachments], sum(body.size for body in bodies))
+
+
+def attachment_paths(
+    basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[Attachment, ...]
+) -> Iterator[np.ndarray]:
+    """Yield the displacement (heave, sway, roll) that each attachment follows, of its body less that of the other, by a
+    unit of each body unknown, shape (3, unknowns)."""
     starts = np.cumsum([0, *(body.size for body in bodies)])
-    maps = []
     for attachment in attachments:
         path = np.zeros((3, starts[-1]))
         for index, sign in ((attachment.body, 1.0), (attachment.other, -1.0)):
@@ -27,8 +37,7 @@ def outside_of(basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[At
                 path[:, starts[index] : starts[index + 1]] += sign * displacement_at(
                     basin, bodies[index], index, attachment.point
                 )
-        maps.append(path)
-    return outside_forces(maps, [one.scaled(basin.units) for one in attachments], int(starts[-1]))
+        yield path
 
 
 def displacement_at(basin: OpenBasin, body: Body, index: int, point: tuple[float, float]) -> np.ndarray:

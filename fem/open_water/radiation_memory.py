@@ -185,7 +185,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
                 start=masses(fast.coefficients[0]) * band.highest**2,
                 quickest=band.highest,
                 poles=np.conj(-1j * resonances * unit),
-                residues=np.array([masses(one) for one in residues.conj()]).reshape(-1, *limit.shape) * unit**2,
+                residues=np.array([masses(one) for one in residues.conj()], dtype=complex).reshape(-1, *limit.shape)
+                * unit**2,
             )
         found = _Found(
             memory=memory,
@@ -193,9 +194,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             omega=axis * unit,
             hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
         )
-        return Attempt(
-            result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution
-        )
+        return Attempt(result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution)
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result

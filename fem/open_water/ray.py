@@ -7,8 +7,9 @@ from the series `low_frequency` and `high_frequency`. An error δH of H changes 
 
     (1/π) Im ∫ D⁻¹ p δH D⁻¹ K a₀ e^{pt} dp,    D = p²(M + H) + K.
 
-In deep water H has a logarithm at p = 0, which leaves the tail −(2/π) K⁻¹ h a₀/t², h = lim Im H = lim b/ω; at finite
-depth there is none.
+In deep water H of sections has a logarithm at p = 0, which leaves the tail −(2/π) K⁻¹ h a₀/t², h = lim Im H = lim b/ω;
+at finite depth there is none. The waves of solids of revolution spread in two directions: they have this tail at finite
+depth, and (12/π) K⁻¹ h a₀/t⁴ with h = lim b/ω³ in deep water.
 """
 
 from __future__ import annotations

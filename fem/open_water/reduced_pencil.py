@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from mpi4py import MPI
@@ -125,9 +124,10 @@ class ReducedPencil:
         potentials: np.ndarray = coordinates @ self._basis
         return potentials
 
-    def lifted(self, coordinates: np.ndarray) -> Callable[[], np.ndarray]:
-        """Return a function that returns `potentials` on the basis as it is now."""
-        return partial(np.matmul, coordinates, self._basis)
+    def lift(self) -> Callable[[np.ndarray], np.ndarray]:
+        """Return `potentials` on the basis as it is now, a function of coordinates."""
+        basis = self._basis
+        return lambda coordinates: coordinates @ basis
 
     def residuals(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Return relative residuals |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|, shape (loads,).

@@ -151,7 +151,7 @@ class SpectrumRequest:
         words: description of the waves.
         waves_from: the side from which the waves are incident.
         duration: of the sea state, s.
-        highest: highest frequency, rad/s; ``None`` for that of the spectrum.
+        highest: highest frequency, rad/s; ``None`` for that of the spectrum, or one that leaves little beyond.
         points: points of bodies at which motions are reported, (index of the body, (x, y) in m).
         positions: number of points along each beam.
         thickness: of beams, m, for their stresses 6M/h²; ``None`` for no stresses.
@@ -171,7 +171,8 @@ class SpectrumRequest:
     def band(self) -> tuple[float, float]:
         """Lowest and highest frequency, rad/s."""
         low, high = self.spectrum.band
-        return low, min(high, self.highest or high)
+        # A table ends with nothing beyond.
+        return low, (self.highest or high) if self.spectrum.tail(high, 0) else min(high, self.highest or high)
 
 
 OVER_TIME = (ImpulseResponseRequest, MotionRequest)

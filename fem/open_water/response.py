@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import nan
+from math import nan, pi
 from typing import Any, Literal
 
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
+from hydroelastic.fem.open_water.beam_loads import AlongBeam, BeamLoads
 from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.incident_waves import direction_of
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
+from hydroelastic.fem.open_water.outside import attachment_paths
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
-from hydroelastic.modal.beam.beam_shapes import beam_shapes
+from hydroelastic.physics.attachments import REGULAR
 
 # Largest part of a motion by which its drawn curve may miss it.
 _DRAWN = 1e-3
@@ -52,7 +55,7 @@ class _Sweep:
 
     solver: OpenSolver
     swept: Swept[OpenResponse]
-    errors: np.ndarray
+    table: ResponseTable
 
 
 def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
@@ -80,18 +83,23 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
             places = estimated_places(omegas)
             causes = [response_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
+        joined = joined_errors(causes, float(swept.errors.max()))
+        table = _table(request, solver.model, omegas, swept.solutions, errors)
+        units = solver.model.basin.units
+        # Of a wave of unit elevation that is reflected in full, the drift force in deep water is ρg/2.
+        drift = float(np.nan_to_num(table.drift_error).max(initial=0.0)) / (0.5 * units.density * units.gravity)
         return Attempt(
-            result=_Sweep(solver=solver, swept=swept, errors=errors),
-            causes=joined_errors(causes, float(swept.errors.max())),
+            result=_Sweep(solver=solver, swept=swept, table=table),
+            causes=joined.scaled(max(1.0, max(table.largest_load_error, drift) / joined.largest_total)),
             resolution=resolution,
         )
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
     model = found.solver.model
-    table = _table(request, model, omegas, found.swept.solutions, found.errors)
+    table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(found.swept.solutions))
+        table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
     if len(omegas) > FEW:
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
@@ -103,19 +111,16 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _on_hulls(solutions: list[OpenResponse]) -> dict[str, Any]:
-    """Pressures along hulls, and the drift force by them (collective)."""
-    from hydroelastic.fem.open_water.hull import hull_pressures, near_field_drift
+def _on_hulls(solutions: list[OpenResponse], errors: np.ndarray) -> dict[str, Any]:
+    """Pressures along hulls, and in one liquid the drift force by the field beside the bodies (collective)."""
+    from hydroelastic.fem.open_water.hull import hull_pressure
 
-    tank = solutions[0].model.basin.tank
-    hulls = [(index, *hull_pressures(solutions, index)) for index, hull in tank.hulls.items() if not hull.is_thin]
-    found: dict[str, Any] = {
-        "hulls": tuple(HullPressure(body=index, points=points, pressure=values) for index, points, values in hulls)
-    }
-    if len(hulls) == len(tank.bodies) == len(tank.layers) == 1:
-        units = solutions[0].model.basin.units
+    tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
+    hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
+    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, errors, index) for index in hulls)}
+    if len(tank.layers) == 1:
         forces = [
-            [near_field_drift(one, 0, place) for place in range(len(one.incident))]
+            np.array([one.near_field_drift(place) for place in range(len(one.incident))])
             / one.incidence.elevations[one.incident] ** 2
             for one in solutions
         ]
@@ -156,16 +161,18 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     and omitted dry modes over the largest deflection (collective)."""
     model, powers = solution.model, solution.incidence.powers[solution.incident]
     away, tips = model.energies_missed(solution.scattered)
-    count = len(solution.incident)
+    count, omega = len(solution.incident), float(np.sqrt(solution.squared.real))
     return FrequencyErrors(
         liquid=0.5 * away / powers + boundary_error(model.pencil.liquid.tank, model.basin.tank) + model.cut,
         tips=0.5 * tips / powers,
-        truncation=np.full(count, max((_truncation(motions, model) for motions in solution.motions), default=0.0)),
+        truncation=np.full(
+            count, max((_truncation(motions, model, omega) for motions in solution.motions), default=0.0)
+        ),
         rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),
     )
 
 
-def _truncation(motions: np.ndarray, model: OpenModel) -> float:
+def _truncation(motions: np.ndarray, model: OpenModel, omega: float) -> float:
     """Deflection in the omitted dry modes, relative to the largest motion."""
     largest = np.abs(motions).max(initial=0.0)
     if not largest:
@@ -175,8 +182,27 @@ def _truncation(motions: np.ndarray, model: OpenModel) -> float:
         own = np.abs(motions[first : first + body.size])
         first += body.size
         if model.basin.tank.bodies[index].is_elastic:
-            worst = max(worst, _TAIL * body.size * float(own[-2:].max()))
+            held = _tail_of_attachments(motions, model, index, omega)
+            worst = max(worst, _TAIL * body.size * float(own[-2:].max()) + held)
     return worst / float(largest)
+
+
+def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:
+    """Deflection of a beam in the omitted dry modes by the forces F and moments C of springs and dampers at points.
+
+    Σ_{n>N} Wₙ (F Wₙ + C Wₙ′)/(EI κₙ⁴ l) with |Wₙ| ≤ √2 and κₙ = nπ/l is less than 2 (F l³/(3π⁴N³) + C l²/(2π³N²))/EI.
+    """
+    attachments, (tank, bodies) = model.attachments, (model.basin.tank, model.pencil.bodies)
+    beam, count, found = tank.beams[index], bodies[index].size, 0.0
+    for one, path in zip(attachments, attachment_paths(model.basin, bodies, attachments), strict=True):
+        if index in (one.body, one.other):
+            scaled = one.scaled(model.basin.units)
+            force, _, couple = np.abs((scaled.stiffness - 1j * omega * scaled.damping) @ path @ motions)
+            tail = force * beam.length**3 / (3.0 * pi**4 * count**3) + couple * beam.length**2 / (
+                2.0 * pi**3 * count**2
+            )
+            found += 2.0 * float(tail) / beam.flexural_rigidity
+    return found
 
 
 def _table(
@@ -203,9 +229,10 @@ def _table(
         partial_waves=np.array([one.partial_waves() for one in solutions])[..., None] if is_round else None,
         absorption=np.array([solution.absorption for solution in solutions]),
         drift_force=drift_forces(solutions),
+        drift_error=drift_errors(solutions, errors),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
-        plates=tuple(_plates(request, model, motions)),
+        plates=tuple(_plates(request, model, solutions, errors)),
         fields_at=request.fields_at,
     )
 
@@ -217,41 +244,68 @@ def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
     return units.density * units.gravity * np.array(forces)
 
 
-def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
-    plates, first = [], 0
-    for index, body in enumerate(model.pencil.bodies):
-        own = motions[..., first : first + body.size]
-        first += body.size
-        if model.basin.tank.bodies[index].is_elastic:
-            piece, length = model.basin.tank.piece_of(index), model.basin.units.length
-            x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
-            deflections, moments, shears = along_beam(model, index, body.size, x)
-            plates.append(
-                PlateDeflection(
-                    body=index,
-                    positions=model.basin.origin + length * (piece.start + x),
-                    deflection=own @ deflections,
-                    bending_moment=own @ moments,
-                    shear_force=own @ shears,
-                )
-            )
-    return plates
+def drift_errors(solutions: list[OpenResponse], errors: np.ndarray) -> np.ndarray:
+    """Return estimated errors of `drift_forces`, N/m³, shape (n, incident).
+
+    Args:
+        solutions: the responses.
+        errors: their errors relative to the incident wave, shape (n,).
+    """
+    units = solutions[0].model.basin.units
+    found = [
+        one.drift_error(float(error)) / one.incidence.elevations[one.incident] ** 2
+        for one, error in zip(solutions, errors, strict=True)
+    ]
+    return units.density * units.gravity * np.array(found)
 
 
-def along_beam(model: OpenModel, index: int, count: int, x: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return deflection, bending moment and shear force of a beam by a unit of each of its unknowns per dimensionless
-    elevation: per metre of elevation in m, N and N/m, each of shape (unknowns, points).
+def _plates(
+    request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse], errors: np.ndarray
+) -> Iterator[PlateDeflection]:
+    outside, units = model.outside, model.basin.units
+    for index, beam in model.basin.tank.beams.items():
+        x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
+        along, found = BeamLoads(model, index, x), []
+        for solution in solutions:
+            heights = request.elevation / units.length / solution.incidence.elevations[solution.incident]
+            speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
+            found.append(along.of(solution, solution.motions, REGULAR * outside.drag * speeds))
+        yield plate_deflection(model, index, x, solutions, found, errors)
+
+
+def plate_deflection(
+    model: OpenModel,
+    index: int,
+    x: np.ndarray,
+    solutions: list[OpenResponse],
+    found: list[AlongBeam],
+    errors: np.ndarray,
+) -> PlateDeflection:
+    """Return what acts along a beam in SI units, with its errors.
 
     Args:
         model: the problem.
         index: of the beam among the bodies.
-        count: number of its unknowns.
-        x: distances from its left end, dimensionless, shape (points,).
+        x: distances from its left end, in units of the basin, shape (p,).
+        solutions: the responses.
+        found: what acts along it in these.
+        errors: their relative errors, shape (n,).
     """
-    units, shapes = model.basin.units, beam_shapes(model.basin.tank.beams[index], count)
+    units, start = model.basin.units, model.basin.tank.piece_of(index).start
+    factors = np.array([one.per_elevation(RIGHTWARD) for one in solutions])
     weight = units.density * units.gravity * units.length
-    return (
-        shapes.tabulated(x, 0),
-        np.multiply(weight * units.length, shapes.moments(x)),
-        np.multiply(weight, shapes.shears(x)),
+    uneven = np.array([one.uneven for one in found]) * np.abs(factors)[:, None] * errors[:, None, None]
+    deflection, moment, shear = (
+        unit * np.array([getattr(one, name) for one in found]) * factors[..., None]
+        for name, unit in (("deflection", 1.0), ("bending_moment", weight * units.length), ("shear_force", weight))
+    )
+    return PlateDeflection(
+        body=index,
+        positions=model.basin.origin + units.length * (start + x),
+        deflection=deflection,
+        bending_moment=moment,
+        shear_force=shear,
+        deflection_error=errors[:, None] * np.abs(deflection).max(axis=2),
+        bending_moment_error=weight * units.length * uneven[:, 1],
+        shear_force_error=weight * uneven[:, 0],
     )

@@ -76,6 +76,9 @@ class PlateDeflection:
         deflection: (n, w, p) upwards, per unit elevation of the incident wave.
         bending_moment: (n, w, p) EI w″ per metre of elevation, N/m.
         shear_force: (n, w, p) (EI w″)′ per metre of elevation, N/m².
+        deflection_error: (n, w) estimated error of the deflection anywhere, m/m.
+        bending_moment_error: (n, w) the same of the bending moment, N/m.
+        shear_force_error: (n, w) the same of the shear force, N/m².
     """
 
     body: int
@@ -83,6 +86,9 @@ class PlateDeflection:
     deflection: Complexes
     bending_moment: Complexes
     shear_force: Complexes
+    deflection_error: Floats
+    bending_moment_error: Floats
+    shear_force_error: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,11 +99,13 @@ class HullPressure:
         body: its index among the bodies.
         points: (p, 2) x and y from the left end of the waterplane around the hull, m.
         pressure: (n, w, p) complex amplitudes per metre of elevation, Pa/m.
+        pressure_error: (n, w) estimated error anywhere on the hull, Pa/m.
     """
 
     body: int
     points: Floats
     pressure: Complexes
+    pressure_error: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,12 +145,13 @@ class ResponseTable:
         absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of 1/k of
             the crest.
         drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
+        drift_error: (n, w) its estimated error, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
         hulls: one for each float, if pressures were requested.
-        near_field_drift: (n, w) the drift force by the pressures on the hull, N/m³; of a lone float in one liquid, if
-            pressures were requested.
+        near_field_drift: (n, w) the drift force by the field beside the bodies, N/m³; in one liquid, if pressures were
+            requested.
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
         curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
@@ -160,6 +169,7 @@ class ResponseTable:
     transmission: Complexes | None
     absorption: Floats
     drift_force: Floats
+    drift_error: Floats
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
@@ -169,6 +179,16 @@ class ResponseTable:
     curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
     partial_waves: Complexes | None = None
+
+    @property
+    def largest_load_error(self) -> float:
+        """The largest error of a load along a beam, relative to the largest of it at all frequencies."""
+        pairs = [
+            (getattr(plate, f"{name}_error"), getattr(plate, name))
+            for plate in self.plates
+            for name in ("deflection", "bending_moment", "shear_force")
+        ]
+        return max((float(error.max() / size) for error, of in pairs if (size := np.abs(of).max())), default=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -206,7 +226,8 @@ class DecayTable:
         displacement: (n, m) m or rad.
         initial: (m,) the displacement at t = 0, m or rad.
         absolute_error: (n,) estimated error of the displacement, m or rad.
-        tail: T of the tail T/t² of the released motion, m s² or rad s²; None where no tail is known.
+        tail: T of the tail T/tⁿ of the released motion, m sⁿ or rad sⁿ; None where no tail is known.
+        tail_power: n, 2, or 4 about an axis in deep water.
         certified_until: the time to which the error holds, s.
     """
 
@@ -217,6 +238,7 @@ class DecayTable:
     absolute_error: Floats
     tail: float | None
     certified_until: float
+    tail_power: int = 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -258,6 +280,11 @@ class PlateStatistics:
         largest_bending_moment: most probable largest in the duration, N.
         significant_shear_force: N/m.
         largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
+        relative_errors: estimated errors of the significant "deflection", "bending_moment" and "shear_force" anywhere,
+            relative to the largest along the beam.
+        sampling_error: the largest part of these by the sampling of transfer functions.
+        truncation_error: by waves beyond the frequencies.
+        transfer_error: by the errors of the transfer functions.
     """
 
     body: int
@@ -267,6 +294,15 @@ class PlateStatistics:
     largest_bending_moment: Floats
     significant_shear_force: Floats
     largest_stress: Floats | None
+    relative_errors: dict[str, float]
+    sampling_error: float
+    truncation_error: float
+    transfer_error: float
+
+    @property
+    def relative_error(self) -> float:
+        """The largest of `relative_errors`."""
+        return max(self.relative_errors.values())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -287,6 +323,7 @@ class SpectrumTable:
         responses: statistics of each quantity.
         dofs: m degrees of freedom.
         mean_drift_force: mean force on the bodies along x, N/m; NaN about an axis in waves on two levels.
+        mean_drift_error: its estimated error, N/m.
         mean_absorbed_power: mean power that linear damping from outside takes, W/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
         plates: one for each beam.
@@ -305,6 +342,20 @@ class SpectrumTable:
     responses: tuple[IrregularResponse, ...]
     dofs: tuple[Dof, ...]
     mean_drift_force: float
+    mean_drift_error: float
     mean_absorbed_power: float
     equivalent_damping: Floats
     plates: tuple[PlateStatistics, ...]
+
+    def largest_error(self, cause: str) -> float:
+        """Return the largest error of a significant amplitude or load by a cause, an attribute of `IrregularResponse`,
+        relative to the largest in the same unit, or along the beam: a point may move little by symmetry."""
+        largest: dict[str, float] = {}
+        for one in self.responses:
+            largest[one.unit] = max(largest.get(one.unit, 0.0), one.significant_amplitude)
+        of_motions = (
+            getattr(one, cause) * one.significant_amplitude / largest[one.unit]
+            for one in self.responses
+            if largest[one.unit]
+        )
+        return max((*of_motions, *(getattr(plate, cause) for plate in self.plates)), default=0.0)

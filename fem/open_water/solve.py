@@ -190,9 +190,22 @@ def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> l
                 f"analysis {number} ({kind}): excitation forces and radiated waves disagree by "
                 f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
             )
+    if isinstance(solution, SpectrumSolution):
+        reasons += _spectrum_reasons(tolerance, f"analysis {number} ({kind})", solution.table)
     if isinstance(solution, ResonanceSolution):
         reasons += [f"analysis {number} ({kind}): {reason}" for reason in resonance_reasons(solution)]
     return reasons
+
+
+def _spectrum_reasons(tolerance: float, analysis: str, table: SpectrumTable) -> Iterator[str]:
+    """Yield messages on what the frequencies of a spectrum analysis leave out."""
+    for cause, what in (
+        ("truncation_error", f"the waves above {table.omega[-1]:.4g} rad/s are left out: raise highest_omega"),
+        ("sampling_error", f"{len(table.omega)} frequencies do not resolve the transfer functions"),
+    ):
+        error = table.largest_error(cause)
+        if error > tolerance:
+            yield f"{analysis}: {what}; significant amplitudes lack up to {error:.1e} of the largest"
 
 
 def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:

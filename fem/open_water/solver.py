@@ -91,7 +91,8 @@ class OpenSolver:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
         with self._watch.stage("reduce"):
             projected = self._known_loads().projected
-            return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
+            found = [projected @ self._reduced.solve(square, projected).T for square in squares]
+            return np.array(found).reshape(len(found), len(projected), len(projected))
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """Return H at λ on the basis, shape (body unknowns, body unknowns), and a relative residual (collective).
@@ -149,7 +150,7 @@ class OpenSolver:
             known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
             found = self._reduced.solve(squared, known.projected)
             residual = self._reduced.known_residuals(squared, known, np.eye(len(found)), found).max()
-            lifted = self._reduced.lifted(found[:count])
+            lift = self._reduced.lift()
         coupling = known.projected[:count]
         return OpenFrequency(
             model=self.model,
@@ -157,7 +158,7 @@ class OpenSolver:
             incidence=waves,
             hydrodynamic=coupling @ found[:count].T,
             diffraction=found[count:] @ coupling.T,
-            potentials=lifted,
+            potentials=lambda: lift(found[:count]),
         ), float(residual)
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:
@@ -190,7 +191,7 @@ class OpenSolver:
             incidence=waves,
             incident=incident,
             fluxes=products(waves.fluxes, scattered[incident]),
-            potentials=lambda: scattered[incident],
+            potentials=lambda moved: diffracted[incident] + moved @ radiated,
             motions=motions[incident],
             absorbed=absorbed[incident],
             equations=equations,
@@ -219,13 +220,14 @@ class OpenSolver:
             coordinates = diffracted[incident] + motions @ radiated
             parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
             residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()
+            lift = self._reduced.lift()
         return OpenResponse(
             model=self.model,
             squared=squared,
             incidence=waves,
             incident=incident,
             fluxes=fluxes @ coordinates.T,
-            potentials=self._reduced.lifted(coordinates),
+            potentials=lambda moved: lift(diffracted[incident] + moved @ radiated),
             motions=motions,
             absorbed=absorbed,
             equations=equations,

@@ -16,17 +16,18 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.curves import Curves, refined_curves
+from hydroelastic.fem.open_water.beam_loads import BeamLoads
+from hydroelastic.fem.open_water.curves import Curves, certified_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of, drift_of_orders
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
+from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import along_beam, incident_places, outcome, response_errors
+from hydroelastic.fem.open_water.response import incident_places, outcome, plate_deflection, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
-from hydroelastic.fem.open_water.sweep import Problem, sweep
+from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
@@ -38,6 +39,14 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
+# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
+_BEYOND, _WIDEST = 0.5, 2.0
+# Frequencies over the last one, above which the drift force tells how it may change beyond.
+_LAST = 0.7
+_CAUSES = ("sampling_error", "truncation_error", "transfer_error")
+_LOADS = ("deflection", "bending_moment", "shear_force")
+# How often all intervals between frequencies are halved for the sake of the moments.
+_HALVINGS = 3
 # Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
 _DRIFT = 1e-4
 
@@ -49,7 +58,7 @@ class SpectrumSolution:
     Attributes:
         table: the results in SI units.
         model: the last field model.
-        error: the largest relative error of transfer functions.
+        error: the largest relative error, of transfer functions or of statistics.
     """
 
     table: SpectrumTable
@@ -70,10 +79,16 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas) for one in attempts]
+    table = _table(problem, request, curves)
+    beyond = table.largest_error("truncation_error")
+    if request.highest is None and beyond > _BEYOND * problem.tolerance:
+        # The energy beyond falls like ω⁻⁴.
+        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
+        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]))
     return SpectrumSolution(
-        table=_table(problem, request, curves),
+        table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
-        error=max(one.error for one in attempts),
+        error=max(table.largest_error("relative_error"), *(one.error for one in attempts)),
     )
 
 
@@ -93,39 +108,60 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         omegas = np.geomspace(lowest, highest, _FIRST)
-        swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            causes = [response_errors(swept.solutions[place]) for place in places]
-        curves = refined_curves(solver, incident, omegas, swept, problem.tolerance)
-        total = np.array([cause.total.max() for cause in causes])
-        known = [int(np.searchsorted(curves.omegas, omegas[place])) for place in places]
-        errors = curves.errors + between(curves.omegas, known, total)
-        return Attempt(
-            result=replace(curves, errors=errors),
-            causes=joined_errors(causes, float(curves.errors.max())),
-            resolution=resolution,
-        )
+        for _ in range(_HALVINGS + 1):
+            curves = certified_curves(solver, incident, omegas, frequencies, problem.tolerance)
+            with problem.watch.stage("errors"):
+                places = _estimated(curves)
+                causes = [response_errors(curves.responses[place]) for place in places]
+            total = np.array([cause.total.max() for cause in causes])
+            joined = joined_errors(causes, float(curves.errors.max()))
+            # About a resonance they change by orders of magnitude.
+            errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
+            curves = replace(curves, errors=errors)
+            if problem.tank.geometry.is_revolved:
+                return Attempt(result=curves, causes=joined, resolution=resolution)
+            table = _table(problem, request, [curves])
+            if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
+                break
+            omegas = curves.omegas
+        units = solver.model.basin.units
+        # The drift force of waves that are reflected in full.
+        reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
+        # Waves that carry no energy need no accuracy.
+        own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
+        return Attempt(result=curves, causes=joined.scaled(own / joined.largest_total), resolution=resolution)
 
     return best_over_band(problem, band, solve)
 
 
+def _estimated(curves: Curves) -> list[int]:
+    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
+    sizes = np.abs(curves.motions)
+    found = set(estimated_places(curves.omegas))
+    for size in sizes.T:
+        top = int(size.argmax())
+        low = np.flatnonzero(size < 0.5 * size[top])
+        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
+        found.update(int(place) for place in sides)
+    return sorted(found)
+
+
 def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
-    damping, motions = _with_drag(request, curves)
+    damping, drag, motions = _with_drag(request, curves)
     errors = np.max([one.errors for one in curves], axis=0)
     rows = _rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
-    deviation = _deviation(models, errors, motions)
-    deviations = deviation @ np.abs(directions).T * np.abs(factors)
+    deviations = _deviation(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)
     order, dofs = _order_of(models)
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
     unit = units.density * units.gravity * units.volume * units.length / units.frequency
+    drift, drift_error = _mean_drift(problem, request, curves, motions)
     return SpectrumTable(
         waves=request.words,
         waves_from=request.waves_from,
@@ -152,11 +188,12 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
             for place, row in enumerate(rows)
         ),
         dofs=dofs,
-        mean_drift_force=_mean_drift(problem, request, curves, motions),
+        mean_drift_force=drift,
+        mean_drift_error=drift_error,
         mean_absorbed_power=_mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
         # Sections alone have beams, and one order.
-        plates=tuple(_plates(request, curves[0], motions, deviation)),
+        plates=tuple(_plates(request, curves[0], motions, drag)),
     )
 
 
@@ -167,19 +204,24 @@ def _order_of(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...]]:
     return order, tuple(dofs[place] for place in order)
 
 
-def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, dimensionless, and the motions of all orders with it per elevation, shape
-    (n, unknowns)."""
+def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the damping in place of drag, its part of each drag, dimensionless, and the motions of all orders with it
+    per elevation, shape (n, unknowns)."""
     omegas, basin = curves[0].omegas, curves[0].solver.model.basin
     outsides = [one.solver.model.outside for one in curves]
     towards = direction_of(request.waves_from)
-    dynamic = np.array([
-        block_diag(*(response.equations.dynamic for response in responses))
-        for responses in zip(*(one.responses for one in curves), strict=True)
-    ])
-    forces = np.hstack([
-        [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses] for own in curves
-    ])
+    dynamic = np.array(
+        [
+            block_diag(*(response.equations.dynamic for response in responses))
+            for responses in zip(*(one.responses for one in curves), strict=True)
+        ]
+    )
+    forces = np.hstack(
+        [
+            [one.equations.forces[one.incident[0]] * one.per_elevation(towards)[0] for one in own.responses]
+            for own in curves
+        ]
+    )
     paths = np.hstack([one.paths for one in outsides])
     scaled = omegas / basin.units.frequency
     whole = replace(outsides[0], paths=paths, damping=block_diag(*(one.damping for one in outsides)))
@@ -194,13 +236,13 @@ def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarr
         return deviations / basin.units.length
 
     damping = whole.equivalent_damping(speeds, IRREGULAR) if len(whole.drag) else np.zeros_like(whole.damping)
-    return damping, moved(damping)
+    return damping, IRREGULAR * whole.drag * speeds(damping), moved(damping)
 
 
 def _mean_drift(
     problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray
-) -> float:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m or of solids N (collective).
+) -> tuple[float, float]:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
 
     Args:
         problem: the open water.
@@ -212,36 +254,65 @@ def _mean_drift(
     starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
     # Motions per c of the incident wave.
     parts = [
-        [row[None] / one.per_elevation(towards)[0] for row, one in zip(motions[:, first:last], own.responses, strict=True)]
+        [
+            row[None] / one.per_elevation(towards)[0]
+            for row, one in zip(motions[:, first:last], own.responses, strict=True)
+        ]
         for own, first, last in zip(curves, starts, starts[1:], strict=False)
     ]
     if problem.tank.geometry.is_revolved:
         if len(curves[0].responses[0].incidence.planes) > 1:
-            return nan
+            return nan, nan
         known = {
             order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
             for order, own, each in zip(problem.tank.orders, curves, parts, strict=True)
         }
-        forces = _drift_of_orders(problem, request, omegas, known)
+        forces, errors = _drift_of_orders(
+            problem,
+            request,
+            omegas,
+            known,
+            {order: own.errors for order, own in zip(problem.tank.orders, curves, strict=True)},
+        )
     else:
         units = curves[0].solver.model.basin.units
-        forces = units.density * units.gravity * np.array([
-            float(one.drift_force(part)[0] * abs(one.per_elevation(towards)[0]) ** 2)
-            for one, part in zip(curves[0].responses, parts[0], strict=True)
-        ])
+        forces, errors = (
+            units.density
+            * units.gravity
+            * np.array(
+                [
+                    np.hstack([one.drift_force(part), one.drift_error(float(error), part)])
+                    * abs(one.per_elevation(towards)[0]) ** 2
+                    for one, part, error in zip(curves[0].responses, parts[0], curves[0].errors, strict=True)
+                ]
+            ).T
+        )
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
     roots = np.sqrt(np.abs(forces))[:, None]
-    return towards * 2.0 * float(moments(request.spectrum, omegas, roots, (0,))[0, 0])
+    deviations = np.sqrt(roots**2 + errors[:, None]) - roots
+    told = statistics(request.spectrum, omegas, roots, deviations, request.duration)
+    # Short waves are reflected: the force beyond is as at the end, and changes no more than up to there.
+    tail, last = 2.0 * request.spectrum.tail(omegas[-1], 0), np.abs(forces[omegas >= _LAST * omegas[-1]])
+    within = 2.0 * float(told.moments[0, 0])
+    # Of an amplitude, the relative error is half of that of its square.
+    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + tail * float(np.ptp(last))
+    return towards * (within + tail * float(last[-1])), error
 
 
 def _drift_of_orders(
-    problem: OpenWaterProblem, request: SpectrumRequest, omegas: np.ndarray, known: dict[int, np.ndarray]
-) -> np.ndarray:
-    """Drift force along the waves per square of their amplitude about an axis, N/m², shape (n,) (collective).
+    problem: OpenWaterProblem,
+    request: SpectrumRequest,
+    omegas: np.ndarray,
+    known: dict[int, np.ndarray],
+    certain: dict[int, np.ndarray],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
+    (collective).
 
     Orders are added until one scatters no more of the spectrum than `_DRIFT`.
     """
     waves: list[np.ndarray] = []
+    errors: list[np.ndarray] = []
     density = request.spectrum.density(omegas)
     # Nothing moves in the others, and no other analysis asks for them.
     fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _DRIFT))
@@ -249,13 +320,16 @@ def _drift_of_orders(
         order = len(waves)
         if order in known:
             waves.append(known[order][:, 0])
+            errors.append(certain[order])
             continue
         own = _curves(fixed.of_order(order), request).result.at(omegas)
         chosen = np.searchsorted(own.omegas, omegas)
         waves.append(np.array([own.responses[place].partial_waves()[0, 0] for place in chosen]))
+        errors.append(own.errors[chosen])
     layers = two_layers(problem.tank)
     wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
-    return drift_of_orders(problem.tank, omegas, wavenumbers, np.array(waves).T)
+    found, uncertain = np.array(waves).T, np.array(errors).T
+    return drift_of_orders(problem.tank, omegas, wavenumbers, found, uncertain, np.zeros_like(uncertain))
 
 
 def _mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:
@@ -322,38 +396,39 @@ def _deviation(models: list[OpenModel], errors: np.ndarray, motions: np.ndarray)
 
 
 def _plates(
-    request: SpectrumRequest, curves: Curves, motions: np.ndarray, errors: np.ndarray
+    request: SpectrumRequest, curves: Curves, motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateStatistics]:
     """Deflection, bending moment and shear force along each beam."""
     model = curves.solver.model
-    first, units = 0, model.basin.units
-    for index, body in enumerate(model.pencil.bodies):
-        own = slice(first, first + body.size)
-        first += body.size
-        if not model.basin.tank.bodies[index].is_elastic:
-            continue
-        piece = model.basin.tank.piece_of(index)
-        x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
-        tables = along_beam(model, index, body.size, x)
-        # Of a tip or an end, moment and shear are zero but for the dry modes that are left out.
-        deflection, moment, shear = (
-            statistics(
-                request.spectrum,
-                curves.omegas,
-                motions[:, own] @ table,
-                errors[:, own].max(axis=1)[:, None] * np.abs(table).max(axis=0, initial=0.0),
-                request.duration,
-            )
-            for table in tables
-        )
+    for index, beam in model.basin.tank.beams.items():
+        x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
+        along = BeamLoads(model, index, x)
+        found = [
+            along.of(one, motion[None] / one.per_elevation(RIGHTWARD)[0], drag[None])
+            for one, motion in zip(curves.responses, motions, strict=True)
+        ]
+        plate = plate_deflection(model, index, x, curves.responses, found, curves.errors)
+        told, parts = {}, np.zeros((len(_CAUSES), len(_LOADS)))
+        for place, name in enumerate(_LOADS):
+            transfer = getattr(plate, name)[:, 0]
+            deviation = np.broadcast_to(getattr(plate, f"{name}_error"), transfer.shape)
+            told[name] = statistics(request.spectrum, curves.omegas, transfer, deviation, request.duration)
+            sizes = told[name].significant_amplitude
+            for row, cause in enumerate(_CAUSES):
+                # √(m₀ + δm₀) − √m₀: where hardly anything acts, as at the ends, the error is larger than the value.
+                grown = np.sqrt(1.0 + 2.0 * getattr(told[name], cause)) - 1.0
+                parts[row, place] = (grown * sizes).max() / max(sizes.max(), np.finfo(float).tiny)
+        largest = parts.max(axis=1).tolist()
         yield PlateStatistics(
             body=index,
-            positions=model.basin.origin + units.length * (piece.start + x),
-            significant_deflection=deflection.significant_amplitude,
-            significant_bending_moment=moment.significant_amplitude,
-            largest_bending_moment=moment.largest_amplitude,
-            significant_shear_force=shear.significant_amplitude,
-            largest_stress=np.multiply(6.0 / request.thickness**2, moment.largest_amplitude)
+            positions=plate.positions,
+            significant_deflection=told["deflection"].significant_amplitude,
+            significant_bending_moment=told["bending_moment"].significant_amplitude,
+            largest_bending_moment=told["bending_moment"].largest_amplitude,
+            significant_shear_force=told["shear_force"].significant_amplitude,
+            largest_stress=np.multiply(6.0 / request.thickness**2, told["bending_moment"].largest_amplitude)
             if request.thickness
             else None,
+            relative_errors=dict(zip(_LOADS, parts.sum(axis=0).tolist(), strict=True)),
+            **dict(zip(_CAUSES, largest, strict=True)),
         )

@@ -20,10 +20,13 @@ Solution = TypeVar("Solution")
 FEW = 6
 """Largest number of frequencies that are all solved by factorizations, without a reduced basis."""
 
+SHARE = 0.1
+"""Part of the tolerance that is left to the reduced basis."""
+
 # Number of frequencies at which the basis must be accurate before the others are checked.
 _CANDIDATES = 24
-# Part of the tolerance that is left to the reduced basis.
-_SHARE = 0.1
+# Part of that share below which a difference says nothing of the ratio.
+_NEGLIGIBLE = 1e-3
 # Safety factor of the ratio between frequencies.
 _SAFETY = 3.0
 # Number of last ratios in use: those of a basis that does not yet contain the solution are a thousand times larger, and
@@ -82,12 +85,14 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
     full = {place: problem.full(complex(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
     found: dict[int, tuple[Solution, float]] = {}
     ratios: deque[float] = deque(maxlen=_RECENT)
+    # The largest residual of a solution that is accurate far beyond the need.
+    accurate = 0.0
 
     def error(place: int) -> float:
         return _SAFETY * max(ratios, default=0.0) * found[place][1] ** 2
 
     def is_good(place: int) -> bool:
-        return place in found and 0.0 < error(place) <= _SHARE * tolerance
+        return place in found and (found[place][1] <= accurate or 0.0 < error(place) <= SHARE * tolerance)
 
     for candidates in (order[:: max(len(order) // _CANDIDATES, 1)], order):
         while poor := [place for place in candidates if place not in full and not is_good(place)]:
@@ -97,7 +102,11 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
                 continue
             full[worst] = problem.full(complex(omegas[worst]))
             difference = problem.difference(found[worst][0], full[worst])
-            ratios.append(difference / max(found[worst][1], np.finfo(float).eps) ** 2)
+            if difference > _NEGLIGIBLE * SHARE * tolerance:
+                ratios.append(difference / max(found[worst][1], np.finfo(float).eps) ** 2)
+            else:
+                # Its ratio would be that of rounding.
+                accurate = max(accurate, found[worst][1])
     errors = np.zeros(len(omegas))
     solutions: list[Solution] = []
     for place in range(len(omegas)):
@@ -105,10 +114,10 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             solutions.append(full[place])
         else:
             solutions.append(found[place][0])
-            errors[place] = error(place)
+            errors[place] = max(error(place), _NEGLIGIBLE * SHARE * tolerance)
     return Swept(
         solutions=solutions,
         errors=errors,
         in_full=[place in full for place in range(len(omegas))],
-        ratio=_SAFETY * max(ratios, default=0.0),
+        ratio=_SAFETY * max(ratios, default=_NEGLIGIBLE * SHARE * tolerance / max(accurate, np.finfo(float).eps) ** 2),
     )

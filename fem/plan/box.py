@@ -16,7 +16,7 @@ from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.released import released_box_pencil
-from hydroelastic.fem.plan.truncation import rectangle_energies
+from hydroelastic.fem.plan.truncation import finer_count, rectangle_energies
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
@@ -54,7 +54,9 @@ class BoxModel:
         self, resolution: BoxResolution, one: SymmetryClass, plates: tuple[RectangleBody, ...], modes: list[Mode]
     ) -> np.ndarray:
         """See `ClassModel.errors`: by the liquid and by the plates."""
-        return np.array([_liquid_errors(self.tank, resolution, one, plates, modes), _plate_errors(plates, modes)])
+        return np.array(
+            [_liquid_errors(self.tank, resolution, one, plates, modes), _plate_errors(self.tank, one, plates, modes)]
+        )
 
     def refined(self, resolution: BoxResolution, errors: np.ndarray, tolerance: float) -> BoxResolution | None:
         """See `ClassModel.refined`."""
@@ -202,7 +204,7 @@ def box_problem(
         tank: the dimensionless box.
         resolution: of it.
         parity: the class.
-        dense: whether A is made as a matrix, of which the inertia can be had.
+        dense: see `box_pencil`.
     """
     bodies = _bodies(tank, resolution, parity)
     liquid = _liquid(tank, resolution, parity)
@@ -224,42 +226,39 @@ def _liquid_errors(
     liquid: BoxLiquid = one.pencil.liquid
     finer = _liquid(tank, resolution.finer(), one.parity)
     embeddings = [fine.embedding(coarse) for fine, coarse in zip(finer.spaces, liquid.spaces, strict=True)]
-    both = []
-    for space in (liquid, finer):
-        both.append(
-            (
-                water_masses(space, bodies) if one.pencil.surfaces else [],
-                np.concatenate(
-                    [plate_loads(space, body) for body in bodies if body.body.size] or [np.empty((0, space.size))]
-                ),
-            )
-        )
-    (masses, loads), (finer_masses, finer_loads) = both
-    columns = water_columns(masses) if masses else np.empty(0, np.int64)
-    errors = []
-    for mode in modes:
-        values = mode.displacement.array_r
-        height = np.zeros(liquid.size)
-        height[columns] = values[one.pencil.body_size :]
-        surface = height.reshape(liquid.shape)
-        fine = embeddings[0] @ surface @ embeddings[1].T
-        load = sum((x @ surface @ y for x, y in masses), (values[: one.pencil.body_size] @ loads).reshape(liquid.shape))
-        finer_load = sum(
-            (x @ fine @ y for x, y in finer_masses),
-            (values[: one.pencil.body_size] @ finer_loads).reshape(finer.shape),
-        )
-        gain = (finer_load * finer.answer(finer_load)).sum() - (load * liquid.answer(load)).sum()
-        errors.append(0.5 * abs(gain))
-    return _SAFETY * np.array(errors)
+    moving = [body for body in bodies if body.body.size]
+    values = np.array([mode.displacement.array_r for mode in modes]).reshape(len(modes), one.pencil.size)
+    *amplitudes, heights = np.split(values, np.cumsum([body.body.size for body in moving]), axis=1)
+    loads = np.zeros((len(modes), finer.size))
+    for body, own in zip(moving, amplitudes, strict=True):
+        loads += plate_loads(finer, body, np.tensordot(own, body.coefficients, 1))
+    if one.pencil.surfaces:
+        surface = np.zeros((len(modes), liquid.size))
+        surface[:, water_columns(water_masses(liquid, bodies))] = heights
+        fine = embeddings[0] @ surface.reshape(-1, *liquid.shape) @ embeddings[1].T
+        for along, across in water_masses(finer, bodies):
+            loads += (along @ fine @ across).reshape(loads.shape)
+    answers = finer.answer(loads.reshape(-1, *finer.shape)).reshape(loads.shape)
+    added = np.array([(one.pencil.coupling * mode.displacement).dot(mode.potential) for mode in modes])
+    return _SAFETY * 0.5 * np.abs((loads * answers).sum(axis=1) - added)
 
 
-def _plate_errors(bodies: tuple[RectangleBody, ...], modes: list[Mode]) -> np.ndarray:
+def _plate_errors(
+    tank: LevelTank, one: SymmetryClass, bodies: tuple[RectangleBody, ...], modes: list[Mode]
+) -> np.ndarray:
     """Relative error of ω from the energy that the plates' polynomials lack."""
-    errors = np.zeros(len(modes))
-    first = 0
+    assert isinstance(tank.plan, Box)
+    values = np.array([mode.eigenvalue for mode in modes])
+    potentials = np.array([mode.potential.array_r for mode in modes])
+    errors, first = np.zeros(len(modes)), 0
     for body in bodies:
         last = first + body.body.size
-        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
-        errors += rectangle_energies(body, amplitudes)
+        if body.plate.is_elastic and body.body.size and modes:
+            amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes])
+            finer = rectangle_body(
+                tank.plan, body.index, body.plate, finer_count(body.coefficients.shape[1]), one.parity
+            )
+            pressures = potentials @ plate_loads(one.pencil.liquid, finer, finer.coefficients).T
+            errors += rectangle_energies(body, finer, amplitudes, values, pressures)
         first = last
-    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])
+    return 0.5 * errors / values

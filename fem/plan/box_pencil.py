@@ -9,7 +9,7 @@ is four products of small matrices. Ritz's method in V_x ⊗ V_y ⊗ H¹(−H, 0
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,7 @@ from petsc4py import PETSc
 from scipy import sparse
 
 from hydroelastic.fem.level_bed.interval import IntervalSpace
+from hydroelastic.fem.liquid_answer import liquid_answer
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.fem.surfaces import LiquidSurface
@@ -122,12 +123,6 @@ class BoxStiffness:
         load: NDArray[np.float64] = (along @ (self._inverses * (along.T @ values @ across)) @ across.T).ravel()
         return load
 
-    @property
-    def dense(self) -> NDArray[np.float64]:
-        """A itself, shape (N, N)."""
-        moments = np.kron(*self._moments)
-        return (moments * self._inverses.ravel()) @ moments.T
-
 
 def box_pencil(
     liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: bool, dense: bool = False
@@ -138,7 +133,7 @@ def box_pencil(
         liquid: the unknowns of ψ.
         plates: the plates with their shapes of the class.
         waves: whether the water beside the plates moves under gravity.
-        dense: whether A is made as a matrix, of which the inertia can be had.
+        dense: whether A⁺ of all loads is computed, with which the inertia can be had.
 
     Returns:
         The problem; ``None`` where nothing moves in the class.
@@ -147,41 +142,48 @@ def box_pencil(
     water = _water(liquid, plates) if waves else None
     if not moving and water is None:
         return None
-    operator = BoxStiffness(liquid)
-    if dense:
-        laplace = as_matrix(sparse.csr_matrix(operator.dense))
-    else:
-        laplace = PETSc.Mat().createPython((liquid.size, liquid.size), operator, comm=PETSc.COMM_SELF)
-        laplace.setUp()
-    loads = [column for plate in moving for column in plate_loads(liquid, plate)]
-    return coupled_pencil(
+    laplace = PETSc.Mat().createPython((liquid.size, liquid.size), BoxStiffness(liquid), comm=PETSc.COMM_SELF)
+    laplace.setUp()
+    loads = [sparse.csr_matrix(plate_loads(liquid, plate, plate.coefficients).T) for plate in moving]
+    pencil = coupled_pencil(
         liquid,
         bodies=tuple(plate.body for plate in moving),
         surfaces=(LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if water else (),
-        body_coupling=as_matrix(sparse.csr_matrix(np.array(loads).T)) if loads else None,
-        surface_blocks=[water] if water else [],
+        body_coupling=as_matrix(sparse.hstack(loads, format="csr")) if loads else None,
+        surface_blocks=[SurfaceBlocks(coupling=as_matrix(water[0]), stiffness=as_matrix(water[1]))] if water else [],
         laplace=laplace,
         solver=BoxOperator(liquid=liquid),
         closed=(0,) if liquid.is_closed else (),
     )
+    if not dense:
+        return pencil
+    coupling = sparse.hstack([*loads, *([water[0]] if water else [])], format="csr")
+    potentials = liquid.answer(coupling.T.toarray().reshape(-1, *liquid.shape)).reshape(-1, liquid.size).T
+    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.stiffness, pencil.body_size)
+    return replace(pencil, answer=answer)
 
 
-def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
-    """Return ∫φ q over a plate and its images for each of its shapes φ, shape (shapes, N)."""
-    moments = []
-    for axis, space in enumerate(liquid.spaces):
-        start, end = plate.extents[axis]
-        moments.append(
-            space.moments(
-                start,
-                min(end, space.nodes[-1]),
-                plate.outline.position[axis],
-                plate.outline.size[axis],
-                plate.coefficients.shape[1 + axis],
-            )
+def plate_loads(liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return ∫φ q over a plate and its images for functions φ, shape (functions, N).
+
+    Args:
+        liquid: the unknowns of ψ.
+        plate: the plate.
+        coefficients: of φ in the plate's polynomials, shape (functions, m, n).
+    """
+    along, across = (
+        space.moments(start, min(end, space.nodes[-1]), middle, side, count)
+        for space, (start, end), middle, side, count in zip(
+            liquid.spaces,
+            plate.extents,
+            plate.outline.position,
+            plate.outline.size,
+            coefficients.shape[1:],
+            strict=True,
         )
-    loads = np.einsum("im,smn,jn->sij", moments[0], plate.coefficients, moments[1], optimize=True)
-    return liquid.images * loads.reshape(len(loads), -1)
+    )
+    loads: NDArray[np.float64] = liquid.images * (along @ coefficients @ across.T)
+    return loads.reshape(len(coefficients), liquid.size)
 
 
 def water_masses(
@@ -210,8 +212,8 @@ def water_columns(masses: list[tuple[NDArray[np.float64], NDArray[np.float64]]])
     return np.flatnonzero(sum(np.outer(*(np.diagonal(mass) for mass in pair)) for pair in masses))
 
 
-def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> SurfaceBlocks | None:
-    """S on the unknowns that are not zero on the water."""
+def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> tuple[sparse.csr_matrix, sparse.csr_matrix] | None:
+    """S on the unknowns that are not zero on the water: columns of it, and their rows alone."""
     masses = water_masses(liquid, plates)
     if not masses:
         return None
@@ -219,9 +221,8 @@ def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> SurfaceBlock
     for along, across in masses:
         whole = whole + sparse.kron(sparse.csr_matrix(along), sparse.csr_matrix(across), format="csr")
     columns = water_columns(masses)
-    return SurfaceBlocks(
-        coupling=as_matrix(whole[:, columns].tocsr()), stiffness=as_matrix(whole[columns][:, columns].tocsr())
-    )
+    coupling = whole[:, columns].tocsr()
+    return coupling, coupling[columns].tocsr()
 
 
 def as_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:

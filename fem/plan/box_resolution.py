@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import ceil, log10, pi, sqrt, tanh
 
@@ -113,6 +114,7 @@ def plate_wavenumber(tank: LevelTank, plate: Plate, eigenvalue: float) -> float:
     return piece.wavenumber(eigenvalue)
 
 
+@lru_cache(maxsize=16)
 def axis_space(resolution: BoxResolution, length: float, edges: tuple[float, ...], parity: int | None) -> IntervalSpace:
     """Return the space along one axis, of half of it where it has a symmetry.
 

@@ -29,6 +29,7 @@ from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
 from hydroelastic.fem.plan.released_plan import released_plan_pencil
+from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
@@ -145,7 +146,9 @@ class PlanModel:
     ) -> np.ndarray:
         """See `ClassModel.errors`: by the liquid, the poles and the plates."""
         gradients, missing = liquid_and_pole_errors(one.pencil, modes, self.tank.depth)
-        return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, _plate_errors(plates, modes)])
+        space, potentials = one.pencil.liquid.space, np.array([mode.potential.array_r for mode in modes])
+        missing_shapes = plate_errors(plates, modes, lambda plate: potentials @ space.loads(plate).T)
+        return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, missing_shapes])
 
     def refined(self, resolution: PlanResolution, errors: np.ndarray, tolerance: float) -> PlanResolution | None:
         """See `ClassModel.refined`."""
@@ -347,15 +350,3 @@ def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
         space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, images),
         poles=vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
     )
-
-
-def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
-    errors = np.zeros(len(modes))
-    first = 0
-    for plate in plates:
-        last = first + plate.body.size
-        errors += plate.missing_energy(
-            np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
-        )
-        first = last
-    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

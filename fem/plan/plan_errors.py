@@ -77,7 +77,8 @@ def _quadrature(space: PlanSpace, functions: NDArray[np.float64]) -> tuple[NDArr
         matrix.mult(vector, image)
         return image.array.copy()
 
-    basis, images = np.empty((0, space.size)), np.empty((0, space.size))
+    basis: NDArray[np.float64] = np.empty((0, space.size))
+    images: NDArray[np.float64] = np.empty((0, space.size))
     for function in functions:
         rest, size = function, np.sqrt(function @ product(space.mass, function))
         for _ in range(2):

@@ -46,14 +46,18 @@ class PlanPlate:
         body: the body.
         deflection: its shapes.
         wavenumber: of its shortest shape.
-        missing_energy: from the amplitudes of the shapes in some modes (modes, shapes), an estimate of the energy that
-            the shapes left out would have, shape (modes,).
+        missing_energy: from the amplitudes of the shapes in some modes (modes, shapes), their λ and ρ∫ψφ, an estimate
+            of the energy that the shapes left out would have, shape (modes,).
     """
 
     body: Body
     deflection: Deflection
     wavenumber: float
-    missing_energy: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    missing_energy: Callable[[NDArray[np.float64], NDArray[np.float64], Pressures], NDArray[np.float64]]
+
+
+Pressures = Callable[[PlanPlate], NDArray[np.float64]]
+"""ρ∫ψφ of some modes and the shapes φ of a plate, shape (modes, shapes)."""
 
 
 @dataclass(frozen=True, kw_only=True)

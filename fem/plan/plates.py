@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import ceil, pi
@@ -9,9 +10,15 @@ from math import ceil, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
-from hydroelastic.fem.plan.rectangle_body import ClassParity, dofs_by_stiffness, rectangle_body, rectangle_of
-from hydroelastic.fem.plan.truncation import geometric_tail, missing_after, rectangle_energies
+from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate, Pressures
+from hydroelastic.fem.plan.rectangle_body import (
+    ClassParity,
+    RectangleBody,
+    dofs_by_stiffness,
+    rectangle_body,
+    rectangle_of,
+)
+from hydroelastic.fem.plan.truncation import finer_count, geometric_tail, missing_after, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
@@ -38,17 +45,33 @@ def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParit
     outline = plate.outline
     if isinstance(outline, Rectangle | Strip):
         box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(rectangle_of(outline))
-        found = rectangle_body(box, index, plate, polynomials, parity)
-        return PlanPlate(
-            body=found.body,
-            deflection=found.deflection,
-            wavenumber=1.5 * polynomials / min(rectangle_of(outline).size),
-            missing_energy=partial(rectangle_energies, found),
-        )
+        return _rectangle(partial(rectangle_body, box, index, plate, parity=parity), polynomials)
     if isinstance(outline, Disc):
         return _disc(tank, index, outline, polynomials, parity)
     assert isinstance(outline, Polygon)
     return _polygon(plate, index, outline, polynomials, parity)
+
+
+def _rectangle(body_of: Callable[[int], RectangleBody], polynomials: int) -> PlanPlate:
+    """A rectangle in a number of polynomials along each side."""
+    found = body_of(polynomials)
+
+    def missing(
+        amplitudes: NDArray[np.float64], eigenvalues: NDArray[np.float64], pressures_of: Pressures
+    ) -> NDArray[np.float64]:
+        if not found.plate.is_elastic or not found.body.size:
+            return np.zeros(len(amplitudes))
+        more = finer_count(polynomials)
+        return rectangle_energies(
+            found, body_of(more), amplitudes, eigenvalues, pressures_of(_rectangle(body_of, more))
+        )
+
+    return PlanPlate(
+        body=found.body,
+        deflection=found.deflection,
+        wavenumber=1.5 * polynomials / min(found.outline.size),
+        missing_energy=missing,
+    )
 
 
 def _far_from_walls(outline: Rectangle) -> Box:
@@ -172,7 +195,13 @@ def _covers(tank: LevelTank, disc: Disc) -> bool:
     )
 
 
-def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
+def _disc_tail(
+    body: Body,
+    shapes: _DiscShapes,
+    amplitudes: NDArray[np.float64],
+    _eigenvalues: NDArray[np.float64],
+    _pressures_of: Pressures,
+) -> NDArray[np.float64]:
     """Energy of the orders and radial polynomials left out, from that of the last ones."""
     energies = body.stiffness * amplitudes**2
     rigid_free = body.bending_stiffness > 0.0
@@ -222,7 +251,12 @@ def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int, parit
 
 
 def _polygon_tail(
-    modes: PolygonModes, factor: float, level: float, amplitudes: NDArray[np.float64]
+    modes: PolygonModes,
+    factor: float,
+    level: float,
+    amplitudes: NDArray[np.float64],
+    _eigenvalues: NDArray[np.float64],
+    _pressures_of: Pressures,
 ) -> NDArray[np.float64]:
     """Potential energy of the degrees left out, from that of the last two."""
     if amplitudes.shape[1] < len(modes.stiffness) or not factor:

@@ -1,20 +1,20 @@
-"""Energy of a plate in the polynomials that its basis leaves out, from those it keeps."""
+"""Energy of a plate in the polynomials that its basis leaves out."""
 
 from __future__ import annotations
+
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.plan.plan_pencil import PlanPlate, Pressures
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
-from hydroelastic.modal.plate.rectangle import bending_energies
 
-# Of the energy in the last polynomials, the part that the others do not take over if those are left out; measured:
-# 1/13 to 1/18.
-_REARRANGED = 0.25
-# The same where waves are just resolved, and the decay above which corners limit it.
-_RESOLVED, _SLOW = 0.8, 0.5
 # Slowest decay of the energy with two more polynomials along each side.
 _SLOWEST = 0.6
+# Least power of the number of polynomials with which the energy falls: at corners between a clamped and a free edge.
+_SLOWEST_POWER = 2.0
 
 
 def geometric_tail(last: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -27,38 +27,66 @@ def geometric_tail(last: NDArray[np.float64], before: NDArray[np.float64]) -> ND
 def missing_after(last: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the energy that a basis lacks, from that in its last polynomials and in those before them.
 
-    Where corners limit the decay, it is a part of the remainder of the series. Where the polynomials just resolve a
-    wave the energy falls at once, and with a few fewer of them the others take over nothing: it is that of the last
-    ones, measured on a plate as soft as D/(ρgl⁴) = 2e-7.
+    Where corners limit the decay, it is the remainder of the series. Where the polynomials just resolve a wave the
+    energy falls at once, and with a few fewer of them the others take over nothing: it is no less than that of the last
+    ones.
     """
-    decay = last / np.maximum(before, np.finfo(float).tiny)
-    at_once = _RESOLVED * last * np.clip((_SLOW - decay) / (0.5 * _SLOW), 0.0, 1.0)
-    missing: NDArray[np.float64] = np.maximum(_REARRANGED * geometric_tail(last, before), at_once)
+    missing: NDArray[np.float64] = np.maximum(geometric_tail(last, before), last)
     return missing
 
 
-def rectangle_energies(body: RectangleBody, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Estimate the potential energy, of bending and hydrostatic, that a rectangle's basis lacks.
+def finer_count(polynomials: int) -> int:
+    """Return the number of polynomials along each side in which the error of fewer is seen."""
+    return ceil(1.25 * polynomials) + 1
 
-    Of a soft plate the hydrostatic part is the larger one.
+
+def rectangle_energies(
+    body: RectangleBody,
+    finer: RectangleBody,
+    amplitudes: NDArray[np.float64],
+    eigenvalues: NDArray[np.float64],
+    pressures: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Estimate the energy by which λ falls in all polynomials, by the residual of modes in more of them.
+
+    With W the dry shapes in more polynomials, and κ the stiffness of each, λ falls by Σ r²/κ, r = κ∫wW/∫W² − λ(m∫wW +
+    ρ∫ψW), which is zero in the polynomials that are there. What is beyond these too follows from the slowest decay.
 
     Args:
         body: the plate.
-        amplitudes: of its shapes in some modes, shape (modes, shapes).
+        finer: the same in more polynomials.
+        amplitudes: of its shapes in some modes at unit generalized mass, shape (modes, shapes).
+        eigenvalues: λ of the modes, shape (modes,).
+        pressures: ρ∫ψW of the shapes in more polynomials, shape (modes, finer shapes).
 
     Returns:
         The energy of each mode, shape (modes,).
     """
-    if not body.plate.is_elastic or not body.body.size:
-        return np.zeros(len(amplitudes))
-    table = np.einsum("ks,smn->kmn", amplitudes, body.coefficients)
-    last, before = (_energies_beyond(body, table, dropped) for dropped in (2, 4))
-    return missing_after(last, before - last)
+    count = body.coefficients.shape[1:]
+    overlap = np.tensordot(body.coefficients, finer.coefficients[:, : count[0], : count[1]], ((1, 2), (1, 2)))
+    elastic = finer.body.bending_stiffness > 0.0
+    stiffness = finer.body.stiffness[elastic]
+    per_area = stiffness / (finer.coefficients[elastic] ** 2).sum(axis=(1, 2))
+    inertia = per_area - body.plate.mass_per_area * eigenvalues[:, None]
+    residual = inertia * (amplitudes @ overlap[:, elastic]) - eigenvalues[:, None] * pressures[:, elastic]
+    beyond = 1.0 - (count[0] / finer.coefficients.shape[1]) ** _SLOWEST_POWER
+    energies: NDArray[np.float64] = (residual**2 / stiffness).sum(axis=1) / beyond
+    return energies
 
 
-def _energies_beyond(body: RectangleBody, table: NDArray[np.float64], dropped: int) -> NDArray[np.float64]:
-    """Potential energy in the last polynomials along either side, shape (modes,)."""
-    rest = table.copy()
-    rest[:, : table.shape[1] - dropped, : table.shape[2] - dropped] = 0.0
-    energies = bending_energies(body.outline.size, body.plate.poisson_ratio, rest)
-    return energies * body.plate.flexural_rigidity + float(body.plate.hydrostatic) * (rest**2).sum(axis=(1, 2))
+def plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode], pressures_of: Pressures) -> NDArray[np.float64]:
+    """Relative errors of ω by the shapes that plates lack, shape (modes,).
+
+    Args:
+        plates: with their shapes, in the order of the unknowns.
+        modes: some modes.
+        pressures_of: ρ∫ψφ of these modes and the shapes of a plate, shape (modes, shapes).
+    """
+    values = np.array([mode.eigenvalue for mode in modes])
+    errors, first = np.zeros(len(modes)), 0
+    for plate in plates:
+        last = first + plate.body.size
+        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
+        errors += plate.missing_energy(amplitudes, values, pressures_of)
+        first = last
+    return 0.5 * errors / values

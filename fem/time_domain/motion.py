@@ -70,27 +70,49 @@ class MovingBodies:
     def steady(self, waves: WaveForces) -> Complexes:
         """Amplitudes of the motions in waves without a beginning, with the linear damping that takes the same power as
         the drags in one wave, or in many of random phases, shape (n, m)."""
+        return _moved(self._impedance(waves), waves.forces)
+
+    def errors(self, waves: WaveForces, error: float) -> Floats:
+        """Return estimated errors of the motions, shape (m,).
+
+        With Z ξ = f an error of the hydrodynamics leaves |Z⁻¹| (|δf| + ω² |δH| |ξ|): near a resonance it grows as the
+        motion does.
+
+        Args:
+            waves: the waves' forces.
+            error: of the forces relative to them, and of H = a + i b/ω relative to √(HᵢᵢHⱼⱼ).
+        """
+        impedance = self._impedance(waves)
+        radiated = self.memory.infinite_frequency_added_mass + 1j * (
+            self.memory.transform(waves.omega) / waves.omega[:, None, None]
+        )
+        roots = np.sqrt(np.abs(np.einsum("nii->ni", radiated)))
+        added = (waves.omega**2 * (roots * np.abs(_moved(impedance, waves.forces))).sum(axis=1))[:, None] * roots
+        loads = error * (np.abs(waves.forces) + added)
+        total: Floats = (np.abs(np.linalg.inv(impedance)) @ loads[..., None])[..., 0].sum(axis=0)
+        return total
+
+    def _impedance(self, waves: WaveForces) -> Complexes:
+        """Forces by motions at the frequencies of waves, with the linear damping in place of the drags, shape
+        (n, m, m)."""
         omega, paths = waves.omega[:, None, None], self.outside.paths
-        without_drag = (
+        without_drag = np.asarray(
             self.stiffness
             - omega**2 * (self.inertia + self.memory.infinite_frequency_added_mass)
             - 1j * omega * self.memory.transform(waves.omega)
-            + np.array([self.outside.impedance(one) for one in waves.omega])
+            + np.array([self.outside.impedance(one) for one in waves.omega]),
+            dtype=complex,
         )
-
-        def amplitudes(damping: Floats) -> Complexes:
-            impedance = without_drag - 1j * omega * damping
-            return np.asarray(np.linalg.solve(impedance, waves.forces[..., None])[..., 0], dtype=complex)
-
         if not len(self.outside.drag):
-            return amplitudes(np.zeros_like(self.inertia))
+            return without_drag
         is_regular = len(waves.omega) == 1
 
         def speeds(damping: Floats) -> Floats:
-            along = np.abs(waves.omega[:, None] * (amplitudes(damping) @ paths.T))
+            along = np.abs(waves.omega[:, None] * (_moved(without_drag - 1j * omega * damping, waves.forces) @ paths.T))
             return along[0] if is_regular else np.sqrt(0.5 * (along**2).sum(axis=0))
 
-        return amplitudes(self.outside.equivalent_damping(speeds, REGULAR if is_regular else IRREGULAR))
+        damping = self.outside.equivalent_damping(speeds, REGULAR if is_regular else IRREGULAR)
+        return without_drag - 1j * omega * damping
 
     def motion(self, waves: WaveForces, times: Floats, tolerance: float) -> tuple[Floats, Floats]:
         """Integrate from rest at t = 0.
@@ -168,3 +190,8 @@ class MovingBodies:
             ]
         )
         return matrix.tocsr(), inverse
+
+
+def _moved(impedance: Complexes, forces: Complexes) -> Complexes:
+    """Motions by forces, shape (n, m)."""
+    return np.asarray(np.linalg.solve(impedance, forces[..., None])[..., 0], dtype=complex)

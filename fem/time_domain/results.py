@@ -58,7 +58,8 @@ class MotionTable:
         velocity: (n, m) m/s or rad/s.
         steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear
             there.
-        relative_error: estimated relative error of the forces and of the added mass.
+        relative_error: estimated error of the motions by those of forces, added mass and damping, relative to the
+            largest in the same unit.
     """
 
     times: Floats

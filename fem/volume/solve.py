@@ -26,10 +26,12 @@ from hydroelastic.fem.plan.classes import (
     solve_classes,
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
+from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
@@ -164,7 +166,15 @@ def _solve(
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one, model, some)
-            return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
+
+            def pressures_of(plate: PlanPlate) -> np.ndarray:
+                potentials = np.array([mode.potential.array_r for mode in some])
+                own = [potentials @ load for load in plate_loads(one.pencil.liquid, plate)]
+                found: np.ndarray = model.images * processes.allreduce(np.reshape(own, (-1, len(some))).T)
+                return found
+
+            plates = plate_errors(model.plates[one.parity], some, pressures_of)
+            return np.array([model.images * edges, model.images * waves, plates])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)
         coarser = replace(model, resolution=resolution.coarser)
@@ -272,14 +282,3 @@ def _liquid_errors(one: SymmetryClass, model: VolumeModel, modes: list[Mode]) ->
     of_edges, of_tips, of_corners, of_waves = _CUBIC if quadratic else _DECAY
     singular = of_edges if model.tank.plates else of_tips if model.tank.baffles else of_corners
     return singular * edges, of_waves * waves
-
-
-def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
-    errors = np.zeros(len(modes))
-    first = 0
-    for plate in plates:
-        last = first + plate.body.size
-        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
-        errors += plate.missing_energy(amplitudes)
-        first = last
-    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

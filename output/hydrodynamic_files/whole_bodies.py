@@ -134,8 +134,8 @@ def bodies_of_tables(
     def matrix(values: np.ndarray) -> Floats:
         whole = np.zeros((*values.shape[:-2], count, count))
         for plane in (across, along):
-            whole[..., plane.places[:, None], plane.places] = width * values[..., plane.own[:, None], plane.own] * (
-                np.outer(plane.signs, plane.signs)
+            whole[..., plane.places[:, None], plane.places] = (
+                width * values[..., plane.own[:, None], plane.own] * (np.outer(plane.signs, plane.signs))
             )
         return whole
 
@@ -191,7 +191,7 @@ def bodies_of_tables(
 
 
 class _Plane:
-    """The motions in a vertical plane: their indices `own` among all, their `places` among six of each body, `signs`."""
+    """The motions in a vertical plane: their indices `own` among all, `places` among six of each body, and `signs`."""
 
     def __init__(self, dofs: tuple[Dof, ...], motions: dict[str, tuple[int, float]]) -> None:
         self.own = np.array([place for place, dof in enumerate(dofs) if dof.motion in motions], dtype=int)

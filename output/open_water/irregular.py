@@ -8,6 +8,13 @@ from hydroelastic.output.quantities import Group, Quantity
 # fmt: off
 # A table: as many arguments on a line as fit.
 _CURVE = "spectrum_omega spectrum_quantity"
+def _load_error(key: str, words: str, symbol: str) -> Quantity:
+    return Quantity(
+        f"{key}_error", f"estimated error of the significant {words}", "1", short=f"error {symbol}", shown=".0e",
+        value=lambda it: it.relative_errors[key], note="relative to the largest along it",
+    )
+
+
 SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
     Quantity("waves", "spectrum of the waves", variable="spectrum_of_waves"),
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable=""),
@@ -43,6 +50,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
     ), dimension="irregular_response", prefix="irregular_response"),
     joined_array("mean_drift_force", "mean force on the bodies along x", "", unit="N/m",
         note="NaN about an axis in waves on two levels"),
+    joined_array("mean_drift_error", "its estimated error", "", unit="N/m"),
     joined_array("mean_absorbed_power", "mean power that the linear damping of attachments takes", "", unit="W/m"),
     DOFS,
     joined_array("equivalent_damping", "linear damping in place of quadratic damping", OF_BODIES, unit="kg/(m s)",
@@ -67,6 +75,9 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
             shown=".4g",
             value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
             note="`null` without a thickness"),
+        _load_error("bending_moment", "bending moment", "M"),
+        _load_error("shear_force", "shear force", "Q"),
+        _load_error("deflection", "deflection", "w"),
     ), dimension="spectrum_plate", prefix="spectrum_plate"),
 ), dimension="spectrum_analysis", note=NUMBERED)
 # fmt: on

@@ -39,6 +39,9 @@ class Deflection:
     deflection: Complexes
     bending_moment: Complexes
     shear_force: Complexes
+    deflection_error: Floats
+    bending_moment_error: Floats
+    shear_force_error: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +54,7 @@ class Pressure:
     x: Floats
     y: Floats
     pressure: Complexes
+    pressure_error: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +91,9 @@ class WavesAndMotions(ResponseTable):
                 deflection=plate.deflection,
                 bending_moment=plate.bending_moment,
                 shear_force=plate.shear_force,
+                deflection_error=plate.deflection_error,
+                bending_moment_error=plate.bending_moment_error,
+                shear_force_error=plate.shear_force_error,
             )
 
     @property
@@ -94,7 +101,15 @@ class WavesAndMotions(ResponseTable):
         """The pressure along each hull."""
         for hull in self.hulls:
             x, y = hull.points.T
-            yield Pressure(number=hull.body + 1, omega=self.omega, waves=self.waves, x=x, y=y, pressure=hull.pressure)
+            yield Pressure(
+                number=hull.body + 1,
+                omega=self.omega,
+                waves=self.waves,
+                x=x,
+                y=y,
+                pressure=hull.pressure,
+                pressure_error=hull.pressure_error,
+            )
 
 
 def region_words(region: Region | None) -> str:
@@ -217,6 +232,10 @@ PLATES = Group("plates", "the deflection of each beam", (
     joined_array("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
         phase=CREST),
+    *(joined_array(f"{key}_error", f"estimated error of the {words} of body {{.number}} anywhere", "omega wave",
+        "omega wave_direction wave", unit=unit, variable=f"{key}_error_of_body_{{.number}}", printed=False, column="")
+        for key, words, unit in (("deflection", "deflection", "m/m"), ("bending_moment", "bending moment", "N/m"),
+            ("shear_force", "shear force", "N/m^2"))),
 ), record=lambda table: list(table.deflections), dimension="plate")
 ALONG_HULL = "point_on_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (
@@ -228,6 +247,8 @@ HULLS = Group("hulls", "the pressure along the hull of each float", (
     own_array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
         f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
         unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
+    joined_array("pressure_error", "its estimated error anywhere", "omega wave", "omega wave_direction wave",
+        unit="Pa/m", variable="pressure_error_on_body_{.number}", printed=False, column=""),
 ), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
@@ -274,11 +295,11 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         value=lambda it: None if it.partial_waves is None else it.absorption / it.wavenumbers,
         note="of solids of revolution; `null` of sections"),
     joined_array("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
-        "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
-    joined_array("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
-        "omega wave_direction wave", unit="N/m^3",
-        note="`null` unless `hull_pressures`, of a lone float in one liquid; with sharp corners it is off by "
-        "1e-3 to 3e-3 at a tolerance of 1e-8, and by up to 30 % at 1e-4 near a resonance of roll"),
+        "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="drift_error"),
+    joined_array("drift_error", "its estimated error", "omega wave", "omega wave_direction wave", unit="N/m^3",
+        printed=False),
+    joined_array("near_field_drift", "the same by the field beside the bodies, as a check", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", note="`null` unless `hull_pressures`, in one liquid"),
     joined_array("energy_residual", "relative difference of incident power, and outgoing and absorbed power",
         "omega wave", "omega wave_direction wave", unit="1", short="energy", shown=".1e",
         variable="response_energy_residual"),
@@ -325,8 +346,10 @@ DECAY = Group("decay", "motion after release, by analysis", (
     joined_array("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
     joined_array("absolute_error", "estimated error of the motion after release", "time",
         variable="decay_absolute_error", shown=".1e", **_MOTION),
-    joined_array("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
-        of_roll=("rad s^2",), note="`null` where no tail is known"),
+    joined_array("tail", "asymptotic coefficient of 1/t^2, or of 1/t^4 if that is `tail_power`", "",
+        variable="decay_tail", unit="m s^2", of_roll=("rad s^2",), note="`null` where no tail is known"),
+    joined_array("tail_power", "power of the tail: 4 about an axis in deep water, else 2", "", unit="1",
+        variable="decay_tail_power"),
     joined_array("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
 ), dimension="decay_analysis", note=NUMBERED)

@@ -159,7 +159,7 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(group, ratios, rows),
+        rows=rows_of(group, ratios, rows, found["drift_error"]),
         lines=thinned,
     )
     motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
@@ -237,7 +237,8 @@ def _decay(table: DecayTable) -> Section:
         )
         for row in shown
     ]
-    tail = f"The released motion decays asymptotically like {table.tail or 0.0:.6g}/t², t in seconds."
+    power = "⁴" if table.tail_power == 4 else "²"
+    tail = f"The released motion decays asymptotically like {table.tail or 0.0:.6g}/t{power}, t in seconds."
     return Section(
         title="Motion after release",
         headings=(*headings_of([time, *motions], "dof"), f"error, {' or '.join(sorted(units))}"),
@@ -257,7 +258,8 @@ def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
     power = f", mean power that damping takes: {table.mean_absorbed_power:.5g} W{per}"
     responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
     about = (
-        f"Mean drift force along x: {table.mean_drift_force:.4g} N{per}{power if table.mean_absorbed_power else ''}.",
+        f"Mean drift force along x: {beyond_error(table.mean_drift_force, table.mean_drift_error)} N{per}"
+        f"{power if table.mean_absorbed_power else ''}.",
         f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
         f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
         "peak lies between them: spectrum.csv.",

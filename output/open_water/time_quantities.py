@@ -70,6 +70,6 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
     _joined("standard_deviation", "standard deviation of the motion after the ramp", "dof",
         variable="motion_standard_deviation", **_MOTION),
     _joined("largest", "largest motion after the ramp", "dof", variable="motion_largest", **_MOTION),
-    _joined("relative_error", "estimated relative error of forces, added mass and impulse responses", "", unit="1",
+    _joined("relative_error", "estimated error of the motions relative to the largest", "", unit="1",
         shown=".1e", variable="motion_relative_error"),
 ), dimension="motion_analysis", note=_NUMBERED)

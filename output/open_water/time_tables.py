@@ -76,7 +76,7 @@ def _motion(table: MotionTable) -> Section:
         lines=(
             *thinned,
             f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",
-            f"η is that of the incident waves at the middle of the first body. Estimated error of forces and memory "
-            f"{table.relative_error:.1e}.",
+            f"η is that of the incident waves at the middle of the first body. Estimated error relative to the largest "
+            f"motion {table.relative_error:.1e}.",
         ),
     )

@@ -15,8 +15,6 @@ Array = NDArray[np.float64]
 # Triangles are larger by this part of a pixel: where a cell is cut more finely than its neighbour, their triangles
 # would leave out a pixel here and there.
 _SLACK = 0.05
-# Rows of pixels that are coloured at a time: what belongs to them stays in the processor's cache.
-_ROWS = 64
 # Shades of a scale that has one more at its end, for what rounding takes beyond it.
 _BEYOND = 8
 _WHITE = np.full(4, 255, dtype=np.uint8)
@@ -74,6 +72,14 @@ class Raster:
         owners[row[stroke] * width + column] = triangle[stroke]
         return owners.reshape(height, width)
 
+    @cached_property
+    def _runs(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """Runs of pixels of one triangle in a row: its number, the first pixel and how many."""
+        first = np.ones(self._owners.shape, dtype=bool)
+        first[:, 1:] = self._owners[:, 1:] != self._owners[:, :-1]
+        starts = np.flatnonzero(first)
+        return self._owners.ravel()[starts], starts, np.diff(starts, append=self._owners.size)
+
     def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
         """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
         first, *others = self.points[triangles].transpose(1, 2, 0)
@@ -110,15 +116,14 @@ class Raster:
         shades = np.vstack([scale, _WHITE]).view(np.uint32).ravel()
         planes = self._planes(self.triangles, 0.5 * colours.N * (1.0 + values / limit))
         planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
-        x = np.arange(self.size[0]) + 0.5
-        image = np.empty(self._owners.shape, dtype=np.uint32)
-        for top in range(0, len(image), _ROWS):
-            owners = self._owners[top : top + _ROWS]
-            plane = planes.take(owners, axis=0, mode="wrap")
-            y = (top + 0.5 + np.arange(len(owners)))[:, None]
-            shade = plane[:, :, 0] + plane[:, :, 1] * x + plane[:, :, 2] * y
-            shades.take(shade.astype(np.intp), mode="clip", out=image[top : top + _ROWS])
-        return image.view(np.uint8).reshape(*image.shape, 4)
+        width, height = self.size
+        owners, starts, lengths = self._runs
+        along, across, up = planes[owners].T
+        shade = np.repeat(across, lengths)
+        shade *= np.tile(np.arange(width) + 0.5, height)
+        shade += np.repeat(along + up * (starts // width + 0.5), lengths)
+        image = shades.take(shade.astype(np.intp), mode="clip")
+        return image.view(np.uint8).reshape(height, width, 4)
 
 
 def _ranges(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

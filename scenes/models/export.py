@@ -26,5 +26,5 @@ class Export(SceneModel):
     )
     width: PositiveNumber | None = Field(
         default=None,
-        description="width of the bodies, m, whose sections are solved per metre of width; none of solids of revolution",
+        description="width of the bodies, m, whose sections are solved per metre of width; none of solids",
     )

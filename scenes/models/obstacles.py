@@ -89,7 +89,9 @@ class GivenBaffle(SparseModel):
         )
 
 
-def _outline(position: Point, radius: float | None, size: Point | None, inner_radius: float | None = None) -> Rectangle | Disc:
+def _outline(
+    position: Point, radius: float | None, size: Point | None, inner_radius: float | None = None
+) -> Rectangle | Disc:
     if size is not None:
         return Rectangle(position=position, size=size)
     assert radius is not None
@@ -118,7 +120,12 @@ def _keys_of_the_baffle(baffle: GivenBaffle) -> Iterator[InitErrorDetails]:
         low, high = -inf if baffle.bottom is None else baffle.bottom, baffle.top or 0.0
         if low >= min(high, 0.0):
             key = "top" if baffle.bottom is None else "bottom"
-            yield problem_at((key,), getattr(baffle, key), "the baffle does not reach into the liquid", allowed="bottom below top and below 0")
+            yield problem_at(
+                (key,),
+                getattr(baffle, key),
+                "the baffle does not reach into the liquid",
+                allowed="bottom below top and below 0",
+            )
         return
     if (baffle.level or 0.0) >= 0.0:
         yield problem_at(("level",), baffle.level, "it is not below the still surface", allowed="less than 0")

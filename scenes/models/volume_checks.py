@@ -161,9 +161,7 @@ def _bounds(outline: Rectangle | Disc) -> _Bounds:
 
 def _meet(one: _Bounds, other: _Bounds) -> bool:
     """Whether two boxes touch or overlap."""
-    return all(
-        low <= upper and lower <= high for (low, high), (lower, upper) in zip(one, other, strict=True)
-    )
+    return all(low <= upper and lower <= high for (low, high), (lower, upper) in zip(one, other, strict=True))
 
 
 def _is_inside(plan: Plan, bounds: _Bounds, is_round: bool) -> bool:

@@ -154,9 +154,7 @@ class VolumeFloat(SparseModel):
             size=size,
             draught=depth,
             position=position,
-            centre_of_gravity=(
-                centre if self.vertical_centre_of_gravity is None else self.vertical_centre_of_gravity
-            ),
+            centre_of_gravity=(centre if self.vertical_centre_of_gravity is None else self.vertical_centre_of_gravity),
             gyration=radii,
             motions=self.motions,
             outline=outline,
@@ -237,7 +235,9 @@ class VolumeFloat(SparseModel):
             return still_level(solid, volume, (1.0, 0.0))
         except ValueError as error:
             most = solid.moments().area
-            raise UnfloatableError("mass", f"it sinks: as a whole it displaces {most:g} m³, not {volume:g} m³") from error
+            raise UnfloatableError(
+                "mass", f"it sinks: as a whole it displaces {most:g} m³, not {volume:g} m³"
+            ) from error
 
 
 _Simple: TypeAlias = tuple[Point, float, tuple[Point, ...], float, tuple[float, float, float]]
@@ -247,9 +247,7 @@ def _keys_of_the_shape(body: VolumeFloat) -> Iterator[InitErrorDetails]:
     needed = _NEEDED[body.shape]
     for key in ("draught", *_OF_SHAPES, "vertical_centre_of_gravity"):
         value = getattr(body, key)
-        missing = key in needed or (
-            key == "draught" and body.shape in ("cylinder", "box") and body.mass is None
-        )
+        missing = key in needed or (key == "draught" and body.shape in ("cylinder", "box") and body.mass is None)
         if value is None and missing:
             meaning = VolumeFloat.model_fields[key].description
             yield problem_at((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{meaning}")

@@ -268,7 +268,9 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
     axes.loglog(times, table.absolute_error[order], ":", color=GREY, label="estimated error")
     if table.tail is not None:
         tail = abs(table.tail)
-        axes.loglog(times, tail / times**2, "--", color=GREY, label=f"tail {tail:.3g} {unit}·s²/t²")
+        power = "⁴" if table.tail_power == 4 else "²"
+        label = f"tail {tail:.3g} {unit}·s{power}/t{power}"
+        axes.loglog(times, tail / times**table.tail_power, "--", color=GREY, label=label)
         low = max(0.1 * float(motion[motion > 0.0].min()), 1e-16)
         axes.set_ylim(low, 10.0 * float(motion.max()))
     label_axes(axes, "time t, s", f"size of the displacement, {unit}")

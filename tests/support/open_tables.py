@@ -128,6 +128,9 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
             deflection=_complex(numbers, count, len(waves), analysis.positions),
             bending_moment=_complex(numbers, count, len(waves), analysis.positions),
             shear_force=_complex(numbers, count, len(waves), analysis.positions),
+            deflection_error=np.full((count, len(waves)), 1e-7),
+            bending_moment_error=np.full((count, len(waves)), 1e-7),
+            shear_force_error=np.full((count, len(waves)), 1e-7),
         )
         for index, beam in scene.beams
     ]
@@ -142,6 +145,7 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
         transmission=_complex(numbers, count, len(waves), len(waves)),
         absorption=np.zeros((count, len(waves))),
         drift_force=np.ones((count, len(waves))),
+        drift_error=np.full((count, len(waves)), 1e-7),
         energy_residual=np.full((count, len(waves)), 1e-9),
         relative_error=np.full(count, 1e-7),
         plates=tuple(plates),

@@ -7,6 +7,7 @@ from typing import Any
 from mpi4py import MPI
 from open_cases import stored
 
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.sea import SeaScene
@@ -17,25 +18,29 @@ DENSITY, GRAVITY = 1000.0, 9.81
 MOTIONS = ("heave", "surge", "pitch")
 
 
-def solved(
+def problem_of(
     bodies: list[dict[str, Any]],
     depth: float,
     tolerance: float,
-    *requests: Any,
+    *,
     motions: tuple[str, ...] = MOTIONS,
     **further: Any,
-) -> OpenWaterSolution:
-    """Solve for solids; pitch is about the still level; further keys of the scene may be given."""
+) -> OpenWaterProblem:
+    """Return the problem of solids; pitch is about the still level; further keys of the scene may be given."""
     body = [{"kind": "float", "motions": list(motions), "vertical_centre_of_gravity": 0.0} | one for one in bodies]
-    scene = SeaScene.model_validate(
-        {
-            "liquid": [{"density": DENSITY, "depth": depth}],
-            "body": [one | {"unstable": "solve"} for one in body],
-            "accuracy": {"tolerance": tolerance},
-        }
-        | further
-    )
-    return solve_open_water(open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()), requests)
+    keys = {
+        "liquid": [{"density": DENSITY, "depth": depth}],
+        "body": [one | {"unstable": "solve"} for one in body],
+        "accuracy": {"tolerance": tolerance},
+    }
+    return open_water_problem(SeaScene(**keys | further), MPI.COMM_WORLD, Stopwatch())
+
+
+def solved(
+    bodies: list[dict[str, Any]], depth: float, tolerance: float, *requests: Any, **further: Any
+) -> OpenWaterSolution:
+    """Solve analyses of the problem; see `problem_of`."""
+    return solve_open_water(problem_of(bodies, depth, tolerance, **further), requests)
 
 
 def bodies_of(case: dict[str, Any]) -> list[dict[str, Any]]:

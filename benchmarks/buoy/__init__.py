@@ -1,0 +1,1 @@
+"""Heaving solids of revolution in the open sea, beside Capytaine and OpenFLASH."""

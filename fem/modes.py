@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.added_mass import CondensedKinetics
+from hydroelastic.fem.added_mass import CondensedKinetics, Operator
 from hydroelastic.fem.dense_modes import FEW, CompletedModes, DenseModes
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.pencil import CoupledPencil
@@ -71,6 +71,8 @@ class ModeSet:
         converged: number of converged eigenpairs.
         iterations: restarts of the Krylov–Schur method; 0 of LAPACK.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
+        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
+        eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
     """
 
     eigenvalues: np.ndarray
@@ -82,9 +84,26 @@ class ModeSet:
     iterations: int
     solves: int
     growing: tuple[Mode, ...] = ()
+    eigenvectors: tuple[PETSc.Vec, ...] = ()
 
 
-def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
+Products = Callable[[Operator], Operator]
+"""Makes an operator with the same products of another one, which it keeps or counts, say."""
+
+
+def as_made(operator: Operator) -> Operator:
+    """Return the operator itself."""
+    return operator
+
+
+def solve_modes(
+    pencil: CoupledPencil,
+    count: int,
+    *,
+    shapes: int | None = None,
+    tolerance: float = 1e-12,
+    products: Products = as_made,
+) -> ModeSet:
     """Lowest modes of the coupled problem.
 
     Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
@@ -96,6 +115,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         count: number of modes; fewer are returned if the model has fewer, or the highest are lost in rounding.
         shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
+        products: of the operator, which may be read instead of made; see `fem.checkpoint`.
 
     Returns:
         The modes (collective).
@@ -113,8 +133,8 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     before = pencil.solver.solves
     if count == 0:
         return _no_modes(pencil, kinetics, tolerance)
-    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
-    converged, inverses = _inverses(solver, count, tolerance)
+    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
+    converged, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     count = _visible(inverses)
     order = order[:count]
@@ -143,6 +163,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before if pencil.answer is None else pencil.size,
         growing=_growing(pencil, kinetics, tolerance),
+        eigenvectors=tuple(displacements),
     )
 
 
@@ -212,7 +233,7 @@ def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.nda
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setTolerances(tolerance, 200)
     solver.setDimensions(count, min(2 * count + 12, len(operator)))
-    _, inverses = _inverses(solver, count, tolerance)
+    _, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     vector = matrix.createVecRight()
     columns = []
@@ -248,11 +269,11 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
         return ()
     from slepc4py import SLEPc
 
-    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
     # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not separate it from the
     # rest.
     solver.setDimensions(count, min(count + _GROWING_VECTORS, pencil.size))
-    _, inverses = _inverses(solver, count, tolerance)
+    _, inverses = converged_inverses(solver, count, tolerance)
     displacement, force = pencil.stiffness.createVecs()
     modes = []
     for number in np.argsort(-inverses):
@@ -264,7 +285,7 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     return tuple(modes)
 
 
-def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
+def converged_inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
     """Solve; return how many eigenpairs converged, and 1/λ of the first ones."""
     with interrupts_deferred():
         solver.solve()
@@ -276,13 +297,19 @@ def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.
     return converged, np.array([solver.getEigenvalue(number).real for number in range(count)])
 
 
-def _krylov_schur(
-    pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float, which: SLEPc.EPS.Which
+def krylov_schur(
+    pencil: CoupledPencil,
+    kinetics: CondensedKinetics,
+    count: int,
+    tolerance: float,
+    which: SLEPc.EPS.Which,
+    products: Products = as_made,
 ) -> SLEPc.EPS:
+    """Return a solver of M_c ζ = μ K ζ that was not started (collective)."""
     from slepc4py import SLEPc
 
     stable = len(pencil.unstable) == 0
-    context = kinetics if stable else _Turned(kinetics)
+    context = products(kinetics if stable else _Turned(kinetics))
     operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
     operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)

@@ -231,10 +231,11 @@ def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat
     rows = laplace.getLocalSize()[0]
     matrix = PETSc.Mat().createAIJ(((rows, PETSc.DETERMINE), (count if first_rank else 0, count)), comm=laplace.comm)
     matrix.setUp()
-    loads = np.array(list(columns)).reshape(count, rows).T
-    (loaded,) = np.nonzero(loads.any(axis=1))
-    numbers = (loaded + laplace.getOwnershipRange()[0]).astype(PETSc.IntType)
-    matrix.setValues(numbers, np.arange(count, dtype=PETSc.IntType), loads[loaded])
+    # One after the other: in a volume all loads together would take more memory than A.
+    for number, column in enumerate(columns):
+        (loaded,) = np.nonzero(column)
+        rows_of = (loaded + laplace.getOwnershipRange()[0]).astype(PETSc.IntType)
+        matrix.setValues(rows_of, np.array([number], dtype=PETSc.IntType), column[loaded])
     matrix.assemble()
     return matrix
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.meshes.surfaces import Surface
 from hydroelastic.meshes.tagged_mesh import MeshError
 
 _TETRAHEDRON, _TRIANGLE = "tetrahedron", "triangle"
@@ -21,6 +22,8 @@ _TETRAHEDRON, _TRIANGLE = "tetrahedron", "triangle"
 _SMALLEST_JACOBIAN = 0.05
 # In which cells are straightened, and then their neighbours.
 _PASSES = 4
+# Corners, edges, faces and cells after a division of each edge in two, of each face in four, of each cell in eight.
+_DIVIDED = np.array([[1, 1, 0, 0], [0, 2, 3, 1], [0, 0, 4, 8], [0, 0, 0, 8]])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,10 +33,14 @@ class VolumeMesh:
     Attributes:
         noded: the mesh.
         volume: the exact volume, of the part that is meshed.
+        surfaces: of a mesh to be refined, the surface on which nodes of a group of facets lie, or of several groups.
+        curved: of a mesh to be refined, whether any of them is curved.
     """
 
     noded: NodedMesh
     volume: float
+    surfaces: dict[tuple[str, ...], Surface] = field(default_factory=dict)
+    curved: bool = False
 
 
 def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None = None) -> NodedMesh:
@@ -114,10 +121,8 @@ def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
     """
     if not len(mesh.facets):
         raise MeshError("the liquid has no still surface at z = 0")
-    straight = jacobians(replace(mesh, degree=1, cells=mesh.cells[:, :4]), 1)[:, :1]
     for _ in range(_PASSES):
-        smallest = (jacobians(mesh, 2 * mesh.degree if mesh.degree > 1 else 1) / straight).min(axis=1)
-        (folded,) = np.nonzero(smallest < _SMALLEST_JACOBIAN)
+        (folded,) = np.nonzero(smallest_jacobians(mesh) < _SMALLEST_JACOBIAN)
         if not len(folded):
             return mesh
         if not tips:
@@ -130,8 +135,14 @@ def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
     raise FoldedError("a cell at a curved wall is inverted: ask for smaller cells")
 
 
-def jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:
-    """Return det J at points of the cells, shape (cells, points)."""
+def smallest_jacobians(mesh: NodedMesh) -> NDArray[np.float64]:
+    """Return the smallest det J of each cell over that of the straight cell between its corners, shape (cells,)."""
+    straight = _jacobians(replace(mesh, degree=1, cells=mesh.cells[:, :4]), 1)[:, :1]
+    return np.asarray((_jacobians(mesh, 2 * mesh.degree if mesh.degree > 1 else 1) / straight).min(axis=1))
+
+
+def _jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:
+    """Det J at points of the cells, shape (cells, points)."""
     points = basix.create_lattice(basix.CellType.tetrahedron, lattice, basix.LatticeType.equispaced, True)
     return _determinants(mesh, points)
 
@@ -162,11 +173,14 @@ def _element(mesh: NodedMesh) -> basix.finite_element.FiniteElement:
     )
 
 
-def unknown_count(mesh: NodedMesh, degree: int) -> int:
+def unknown_count(mesh: NodedMesh, degree: int, refinements: int = 0) -> int:
     """Return the number of continuous polynomials of a degree: by the corners, edges, faces and cells."""
     corners = np.sort(mesh.cells[:, :4], axis=1)
     faces, edges = (
         len(np.unique(corners[:, list(combinations(range(4), size))].reshape(-1, size), axis=0)) for size in (3, 2)
     )
+    parts = np.array([len(np.unique(corners)), edges, faces, len(corners)])
+    for _ in range(refinements):
+        parts = _DIVIDED @ parts
     inner = [comb(degree - 1, dim) for dim in range(4)]
-    return int(np.dot(inner, [len(np.unique(corners)), edges, faces, len(corners)]))
+    return int(np.dot(inner, parts))

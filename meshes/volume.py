@@ -20,6 +20,8 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.refinement import APART
+from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
@@ -51,6 +53,8 @@ _SAMPLES = 200
 _LEAST_CURVED = 0.2
 # Part of the area of a plate that may lie elsewhere.
 _LEVEL = 1e-7
+# Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
+_FEWEST_AROUND = 12
 # The vertical part of the normal of a wall that meets the still surface at right angles is less.
 _UPRIGHT = 0.1
 # By so much boxes around edges are larger than these.
@@ -66,12 +70,22 @@ class VolumeSizes:
         bulk: elsewhere.
         geometry: degree of the geometry of curved cells.
         around: least number of cells around a curved wall.
+        refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
+            sizes then; see `meshes.refinement`.
     """
 
     edge: float
     bulk: float
     geometry: int
     around: int = 16
+    refinements: int = 0
+
+    @property
+    def coarse(self) -> VolumeSizes:
+        """Those of gmsh's cells."""
+        times = 2**self.refinements
+        around = max(self.around // times, _FEWEST_AROUND)
+        return replace(self, edge=times * self.edge, bulk=times * self.bulk, around=around)
 
 
 def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None)) -> VolumeMesh:
@@ -92,13 +106,22 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
     with gmsh_model():
         parts = _parts(tank, mirrors)
         _require_covered(tank, parts, 2 ** sum(mirror is not None for mirror in mirrors))
-        _set_sizes(tank, sizes, _singular_edges(tank, parts, mirrors))
+        edges, curved, faces = _singular_edges(tank, parts, mirrors), _is_curved(tank), parts.faces
+        surfaces: dict[tuple[str, ...], Surface] = {}
+        if sizes.refinements:
+            apart = {tag: f"{name}{APART}{tag}" for tag, name in faces.items()}
+            # Meshes that are cut open are not refined.
+            surfaces = {} if {BAFFLE, INTERFACE} & set(faces.values()) else _surfaces(apart)
+            sizes, faces = (sizes.coarse, apart) if surfaces else (replace(sizes, refinements=0), faces)
+        _set_sizes(tank, sizes, edges)
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
-            degree = sizes.geometry if _is_curved(tank) else 1
+            degree = sizes.geometry if curved and not sizes.refinements else 1
             if degree > 1:
                 gmsh.model.mesh.setOrder(degree)
-        mesh = read_gmsh(degree, {tag: name for tag, name in parts.faces.items() if name}, parts.layers)
+        mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name}, parts.layers)
+    if sizes.refinements:
+        return VolumeMesh(noded=mesh, volume=parts.volume, surfaces=surfaces, curved=curved)
     cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
     if cuts:
         mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
@@ -183,6 +206,28 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         del faces[replaced]
         faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
     return _Parts(layers=layers, faces=faces, volume=volume)
+
+
+def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:
+    """The surface of each face, and a cylinder through each circle between faces in one plane, which do not tell it;
+    none at all if one of them has no closed form: new nodes could not be moved to it."""
+    found: dict[tuple[str, ...], Surface] = {}
+    for tag, name in faces.items():
+        surface = surface_of(tag)
+        if surface is None:
+            return {}
+        found[(name,)] = surface
+    for _, curve in gmsh.model.getEntities(1):
+        pair = [int(tag) for tag in gmsh.model.getAdjacencies(1, curve)[0] if tag in faces]
+        if len(pair) == 2 and gmsh.model.getType(1, curve) != "Line":
+            normals = np.array([gmsh.model.getNormal(tag, [0.0, 0.0]) for tag in pair])
+            planes = all(gmsh.model.getType(2, tag) == "Plane" for tag in pair)
+            if planes and abs(normals[0] @ normals[1]) > 1.0 - _LEVEL:
+                circle = circle_of(curve)
+                if circle is None:
+                    return {}
+                found[faces[pair[0]], faces[pair[1]]] = circle
+    return found
 
 
 def depth_over(tank: VolumeTank) -> Callable[[FloatArray], FloatArray]:

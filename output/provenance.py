@@ -69,6 +69,11 @@ def memory_of_processes(comm: MPI.Comm) -> int:
     return int(comm.allreduce(memory_of_process()))
 
 
+def largest_memory() -> int:
+    """Return the largest peak resident memory of all processes, bytes (collective)."""
+    return max(_all_processes().allgather(memory_of_process()))
+
+
 def memory_of_process() -> int:
     """Return the peak resident memory of this process, bytes."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024

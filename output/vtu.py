@@ -105,6 +105,22 @@ def _header(*numbers: int) -> bytes:
     return np.array(numbers, dtype=np.uint32).tobytes()
 
 
+def write_index(path: Path, parts: Iterable[str], arrays: Iterable[str]) -> None:
+    """Write a PVTU file, by which ParaView reads VTU files as one.
+
+    Args:
+        path: of the file.
+        parts: names of the files, relative to its folder.
+        arrays: names of their arrays at points, one number each.
+    """
+    text = '<?xml version="1.0"?>\n<VTKFile type="PUnstructuredGrid" version="1.0">\n'
+    text += '<PUnstructuredGrid GhostLevel="0">\n'
+    text += '<PPoints>\n<PDataArray type="Float64" NumberOfComponents="3"/>\n</PPoints>\n<PPointData>\n'
+    text += "".join(f'<PDataArray type="Float64" Name="{escape(name)}"/>\n' for name in arrays)
+    text += "</PPointData>\n" + "".join(f'<Piece Source="{escape(part)}"/>\n' for part in parts)
+    path.write_text(text + "</PUnstructuredGrid>\n</VTKFile>\n", encoding="utf-8")
+
+
 def write_collection(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:
     """Write a PVD file, which ParaView plays.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from mpi4py import MPI
@@ -33,6 +34,7 @@ def write_results(
     text: Callable[[Summary], str],
     page: Callable[[Path, tuple[str, ...]], None] | None,
     report: Report,
+    parts: Callable[[Path], None] | None = None,
 ) -> tuple[str, ...]:
     """Write a result folder on rank 0 (collective).
 
@@ -48,6 +50,7 @@ def write_results(
         text: returns the content of ``summary.md``.
         page: writes a page about the results and warnings into the folder; ``None`` writes none.
         report: called with the name of each step.
+        parts: writes files of each process into a folder (collective); ``None`` writes none.
 
     Returns:
         Warnings: pictures that could not be drawn, and why.
@@ -58,13 +61,25 @@ def write_results(
     comm, watch = MPI.COMM_WORLD, Stopwatch()
     problem: BaseException | None = None
     warnings: list[str] = []
-    if comm.rank == 0:
+    # Others than rank 0 wait for the folder until it is there, or will not be.
+    wait = parts is not None
+    if comm.rank and parts is not None:
+        shared = comm.bcast(None)
+        # An error is that of rank 0 too.
+        with suppress(OSError):
+            if shared is not None:
+                parts(shared)
+    elif comm.rank == 0:
         try:
             with result_folder(out, scene_file=scene_file) as folder:
                 with watch.stage("write"):
                     report("tables")
                     tables(folder)
                     labelled = arrays()
+                    if parts is not None:
+                        comm.bcast(folder)
+                        wait = False
+                        parts(folder)
                 if pictures is not None:
                     with watch.stage("draw"):
                         report("pictures")
@@ -87,5 +102,7 @@ def write_results(
         except BaseException as error:
             # Any exception must reach the other processes, which wait for it.
             problem = error
+            if wait:
+                comm.bcast(None)
     raise_on_all(problem, comm)
     return tuple(warnings)

@@ -2,6 +2,8 @@
 
 import gc
 import os
+import sys
+import traceback
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 
@@ -15,9 +17,23 @@ def start() -> None:
 
     try:
         main()
+    except Exception:
+        _end_other_processes()
+        raise
     finally:
         # The process ends: searching all that was imported for cycles would take longer than solving a scene.
         gc.freeze()
+
+
+def _end_other_processes() -> None:
+    """End all processes of MPI after an error of one: the others would wait for it without end."""
+    # Who did not use MPI does not begin now.
+    mpi = sys.modules.get("mpi4py.MPI")
+    if mpi is not None and mpi.COMM_WORLD.size > 1:
+        traceback.print_exc(file=sys.__stderr__)
+        place = f"process {mpi.COMM_WORLD.rank} of {mpi.COMM_WORLD.size}"
+        print(f"Error: {place} has failed, see above; all processes end.", file=sys.__stderr__, flush=True)
+        mpi.COMM_WORLD.Abort(1)
 
 
 if __name__ == "__main__":

@@ -70,7 +70,8 @@ class _Commands(click.Group):
             try:
                 return super().main(*arguments, **{"prog_name": PROGRAM} | settings)
             except OSError as error:
-                if error.filename is not None:
+                # Others than the first process print nothing.
+                if error.filename is not None or not is_first_rank():
                     raise
                 _end_without_output(error)
 

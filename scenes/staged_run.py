@@ -33,6 +33,10 @@ def _nothing(_solution: Any) -> tuple[str, ...]:
     return ()
 
 
+def _no_parts(_sample: Any) -> None:
+    return None
+
+
 @dataclass(frozen=True, kw_only=True)
 class StagedRun(Generic[_Scene, _Solution]):
     """Runs scenes of one kind.
@@ -51,6 +55,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         arrays: returns the arrays of ``dataset.nc`` alone, on rank 0; by default those declared in `kind`.
         attributes: of ``dataset.nc`` as a whole, further ones.
         swept: returns labelled arrays of a solution that a sweep keeps beside its summary; ``None`` for none.
+        write_parts: returns what writes files of each process into a folder (collective); ``None`` by default.
         solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
@@ -67,6 +72,7 @@ class StagedRun(Generic[_Scene, _Solution]):
     arrays: Callable[[Any], Iterable[Variable]] | None = None
     attributes: Mapping[str, str] = field(default_factory=dict)
     swept: Callable[[_Solution], Iterable[Variable]] | None = None
+    write_parts: Callable[[Any], Callable[[Path], None] | None] = _no_parts
     solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
     def __call__(
@@ -178,5 +184,6 @@ class StagedRun(Generic[_Scene, _Solution]):
                 text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
                 page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
                 report=report,
+                parts=self.write_parts(sampled),
             )
         return with_warnings(warnings)

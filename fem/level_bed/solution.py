@@ -17,6 +17,9 @@ from hydroelastic.fem.tank.elastic_tone import ElasticTone
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
 
+BY_INERTIA = "inertia"
+"""What confirms the number of modes: the signs of the pivots of the matrices of a coarser model."""
+
 
 class LevelProblem(Protocol):
     """One of the problems into which a tank falls: an order, or a symmetry of the plan."""
@@ -148,6 +151,7 @@ class LevelSolution(ClosedSolution[LevelTank]):
         zero_modes: motions without stiffness, which are not modes.
         size: numbers of unknowns and the like, by name.
         solves: applications of the liquid operator.
+        count_method: what confirms the number of modes, in words.
     """
 
     model: str
@@ -156,6 +160,7 @@ class LevelSolution(ClosedSolution[LevelTank]):
     zero_modes: int
     size: dict[str, int]
     solves: int
+    count_method: str = BY_INERTIA
 
     @property
     def residual(self) -> float:
@@ -184,7 +189,7 @@ def shortcomings(solution: LevelSolution) -> Iterator[str]:
     if errors:
         yield from excess(f"mode {int(np.argmax(errors)) + 1} {estimated}", max(errors), tolerance)
     if not solution.counted:
-        yield "an independent count of the modes by inertia disagrees: a mode may be missing"
+        yield f"an independent count of the modes by {solution.count_method} disagrees: a mode may be missing"
     for tone in solution.tones:
         plate = f"of plate {tone.plate + 1}"
         if tone.tone is not None and not tone.tone.certain:

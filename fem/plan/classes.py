@@ -10,14 +10,17 @@ import numpy as np
 
 from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, as_made, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.physics.arrays import FloatArray
 
 # Of the tolerance, the residual to which modes are solved.
 _OF_RESIDUALS = 1e-3
+# Residual of the modes that a second start finds, which enters their λ squared.
+_OF_SECOND_START = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,16 +109,19 @@ class ClassModes:
         return self.classes[number].modes.completed(place)
 
 
-def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float) -> ClassModes:
+def solve_classes(
+    pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float, products: Products = as_made
+) -> ClassModes:
     """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
 
     Args:
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
         tolerance: largest relative error of frequencies that is accepted.
+        products: of the operators; see `solve_modes`.
     """
     # The error of λ is that of the residual squared.
-    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12))
+    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12), products=products)
     if not pencils:
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
@@ -170,6 +176,15 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
         if count_below(pencil, shift) != int(np.sum(one.modes.eigenvalues < shift)):
             return False
     return True
+
+
+def no_mode_is_beyond(solution: ClassModes, products: Products = as_made) -> bool:
+    """Whether a second start finds no further mode of any class below the widest of the last gaps (collective).
+
+    Each eigenvalue found has another one within its residual, so that none is too many.
+    """
+    shift = shift_above(solution.eigenvalues)
+    return all(lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, products) > shift for one in solution.classes)
 
 
 def merged_errors(

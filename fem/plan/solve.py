@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model
-from hydroelastic.fem.level_bed.solution import LevelMode, LevelProblem, LevelSolution, shortcomings
+from hydroelastic.fem.level_bed.solution import BY_INERTIA, LevelMode, LevelProblem, LevelSolution, shortcomings
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -103,7 +103,7 @@ def solve_smallest_model(
     solution = LevelSolution(
         physical=physical,
         tank=tank,
-        model=MODEL_WORDS[model],
+        model=MODEL_WORDS[model] + getattr(found, "remark", ""),
         tolerance=tolerance,
         count=modes,
         modes=tuple(
@@ -117,6 +117,7 @@ def solve_smallest_model(
         tones=tuple(found_tones),
         zero_modes=sum(one.modes.zero_modes for one in classes.classes),
         counted=found.counted,
+        count_method=getattr(found, "count_method", BY_INERTIA),
         size={
             **found.sizes,
             "dofs": sum(one.pencil.liquid.size + one.pencil.size for one in classes.classes),

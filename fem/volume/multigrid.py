@@ -23,12 +23,13 @@ _SMOOTHING_STEPS = 3
 _MOST_ITERATIONS = 200
 # Ratio of the smallest to the largest eigenvalue that the smoother damps, of the largest one estimated.
 _DAMPED = "0,0.1,0,1.1"
-# Measured for shape-regular tetrahedra (Laplace, P1): settings of BoomerAMG that need the fewest iterations.
+# Measured for shape-regular tetrahedra (Laplace, P1): settings of BoomerAMG that need the fewest iterations; of 250,000
+# unknowns of P2 with up to 8 coarse nodes for each fine one 8, with up to 4 of them 10.
 _AMG = {
     "pc_hypre_type": "boomeramg",
     "pc_hypre_boomeramg_coarsen_type": "HMIS",
     "pc_hypre_boomeramg_interp_type": "ext+i",
-    "pc_hypre_boomeramg_P_max": 4,
+    "pc_hypre_boomeramg_P_max": 8,
     "pc_hypre_boomeramg_strong_threshold": 0.5,
     "pc_hypre_boomeramg_relax_type_all": "symmetric-SOR/Jacobi",
     # Gaussian elimination, the default, would meet a singular matrix.

@@ -82,12 +82,9 @@ def volume_pencil(
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     if any(layer.measure <= 0.0 for layer in closed):
         raise MeshError("baffles close in a part of the liquid in which nothing moves")
-    loads = chain.from_iterable(
-        images * load
-        for load in chain(
-            (plate_loads(liquid, plate) for plate in moving), (shape_loads(liquid, body) for body in rigid)
-        )
-    )
+    of_plates = (load for plate in moving for load in plate_loads(liquid, plate))
+    of_floats = (load for body in rigid for load in shape_loads(liquid, body))
+    loads = (images * load for load in chain(of_plates, of_floats))
     count = sum(body.size for body in bodies)
     return coupled_pencil(
         liquid,

@@ -3,27 +3,40 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil
+from math import ceil, log, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
+from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
+from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.volume import VolumeSizes
+from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
+
+LARGEST_MESH = 100_000
+"""Up to so many cells gmsh makes the whole mesh; it makes 27,000 in a second, on one process."""
 
 _MOST_POLYNOMIALS = 30
 _DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
 # Largest and smallest cells, in units of the tank.
 _LARGEST, _SMALLEST = 0.35, 5e-4
-# Relative error of ω by waves at degree 4 over (kh)⁸, of tetrahedra of size h, and by edges over h²; measured.
-_OF_WAVES, _OF_EDGES = 1.2e-7, 0.05
-# At the corners of floats over h^(4/3), as ψ ~ r^(2/3).
-_OF_CORNERS, _CORNER_ORDER = 0.05, 4.0 / 3.0
+# Relative error of ω by waves over (kh)^2p, of tetrahedra of size h and degree p: of degree 2, and of higher ones. By
+# edges over a power of h, and by corners of floats over h^(4/3), as ψ ~ r^(2/3). Measured.
+_OF_WAVES = {2: 1e-3, 4: 1.2e-7}
+_OF_EDGES, _EDGE_ORDER = {2: 0.2, 4: 0.05}, {2: 1.5, 4: 2.0}
+_OF_CORNERS, _CORNER_ORDER = {2: 0.12, 4: 0.05}, 4.0 / 3.0
 # At the tips of baffles over h, as ψ ~ r^(1/2).
 _OF_TIPS = 0.02
+# Cells of edge h in a volume over that over h³, and growing from edges of plates over their length over h; measured.
+_CELLS_OF_VOLUME, _CELLS_OF_EDGES = 8.5, 37.0
+_MOST_REFINEMENTS = 4
+# Seconds that an unknown of degree 4 costs by multigrid, over those of one of degree 2; measured.
+_DEARER = 3.0
 # Largest and smallest ratio of successive sizes.
 _LEAST_STEP, _MOST_STEP = 0.85, 0.3
 
@@ -100,20 +113,39 @@ class VolumeResolution:
         return None if finer == self or sizes.edge < _SMALLEST else finer
 
 
+def resolution_of(kept: dict[str, Any]) -> VolumeResolution:
+    """Return a resolution that was kept by its fields, in types of JSON."""
+    sizes, polynomials = VolumeSizes(**kept["sizes"]), tuple(kept["polynomials"])
+    return VolumeResolution(**{**kept, "sizes": sizes, "polynomials": polynomials})
+
+
 def _step(excess: float, order: float) -> float:
     return min(max(0.9 * excess ** (-1.0 / order), _MOST_STEP), _LEAST_STEP)
 
 
-def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
-    """Return the first resolution for some modes of a dimensionless tank."""
-    degree = _FINE_DEGREE if tolerance < _FINE else _DEGREE
+def volume_resolution(tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors) -> VolumeResolution:
+    """Return the first resolution for some modes of a dimensionless tank.
+
+    It has degree 4, and 6 for small errors. Where that needs too many unknowns for a factorization, and those of degree
+    2 cost less, because edges and not waves ask for small cells or the error may be large, it is degree 2. Baffles, an
+    interface and cells of a file keep the higher one.
+    """
+    first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count)
+    second = _of_degree(2, tank, tolerance, count)
+    many, few = (one.degree**3 / 6.0 * expected_cells(tank, one.sizes, mirrors) for one in (first, second))
+    takes_second = not (tank.baffles or tank.interface or _is_of_mesh(tank))
+    return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
+
+
+def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
+    kind = min(degree, 4)
     eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
-    radians = (tolerance / (3.0 * _OF_WAVES)) ** (0.5 / degree)
+    radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
     corners = tank.floats or any(isinstance(outline, Rectangle) for outline in tank.columns)
-    order = 1.0 if tank.baffles else _CORNER_ORDER if corners else 2.0
-    part = _OF_TIPS if tank.baffles else _OF_CORNERS if corners else _OF_EDGES
+    order = 1.0 if tank.baffles else _CORNER_ORDER if corners else _EDGE_ORDER[kind]
+    part = _OF_TIPS if tank.baffles else (_OF_CORNERS if corners else _OF_EDGES)[kind]
     edge = (0.5 * tolerance / part) ** (1.0 / order)
     return VolumeResolution(
         degree=degree,
@@ -127,3 +159,24 @@ def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeR
         ),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),
     )
+
+
+def with_refinements(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeSizes:
+    """Return sizes with as many refinements that gmsh makes no more than about `LARGEST_MESH` cells."""
+    if _is_of_mesh(tank):
+        return sizes
+    levels = ceil(log(expected_cells(tank, sizes, mirrors) / LARGEST_MESH, 8))
+    return replace(sizes, refinements=min(max(0, levels), _MOST_REFINEMENTS))
+
+
+def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> float:
+    """Return about the number of cells of a mesh between planes of symmetry, without making it."""
+    lengths = [4.0 * plate.outline.area**0.5 for plate in tank.plates]
+    lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
+    cells = _CELLS_OF_VOLUME * tank.plan.area * tank.depth / sizes.bulk**3 + _CELLS_OF_EDGES * sum(lengths) / sizes.edge
+    return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
+
+
+def _is_of_mesh(tank: VolumeTank) -> bool:
+    """Whether the cells are those of a file."""
+    return isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh"

@@ -1,4 +1,4 @@
-"""Modes of a volume as plain arrays on rank 0: displacement of the still surface, ψ in the liquid."""
+"""Modes of a volume as plain arrays: displacement of the still surface on rank 0, ψ in the liquid on all processes."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from itertools import pairwise
 
 import basix
 import numpy as np
+from dolfinx import fem
 from numpy.typing import NDArray
 
-from hydroelastic.fem.cells import cell_positions, owned_cells
+from hydroelastic.fem.cells import owned_cells
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.level_bed.solution import LevelMode
 from hydroelastic.fem.liquid import as_functions
@@ -24,8 +25,10 @@ _PARTS = 3
 _SAME = 1e-9
 # Part of the largest value of a mode.
 _SAME_VALUE = 1e-6
-# Nodes of VTK's quadratic tetrahedron: corners, and the middles of these pairs.
-_MIDDLES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+# Points on the surface of pictures; where there are more, those close to each other become one.
+_MOST_POINTS = 200_000
+# Nodes of VTK's quadratic tetrahedron among those of dolfinx.
+_OF_VTK = [0, 1, 2, 3, 9, 6, 8, 7, 5, 4]
 # Nodes of a mirror image in the order of a cell that is not turned: of triangles and of these tetrahedra.
 _TURNED = {3: [1, 0, 2], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
@@ -85,20 +88,21 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
                     )
                 )
         parts.append((number, np.concatenate(places), np.concatenate(values, axis=1)))
-    gathered = liquid.tank.mesh.comm.gather(parts, root=0)
+    comm = liquid.tank.mesh.comm
+    count = comm.allreduce(sum(len(at) for _, at, _ in parts))
+    pitch = _SAME if count <= _MOST_POINTS else float(np.sqrt(model.tank.plan.area / model.images / _MOST_POINTS))
+    divided = bool(model.tank.baffles)
+    gathered = comm.gather([_thinned(*part, triangles, pitch, divided) for part in parts if len(part[1])], root=0)
     if gathered is None:
         return None
     corners, owners, every, elevations = [], [], [], []
     first = 0
-    for number, at, moved in (part for process in gathered for part in process):
-        if len(at):
-            kept, numbers = _merged(at, moved if model.tank.baffles else None)
-            blocks = np.arange(len(at)).reshape(-1, len(local))
-            corners.append(first + numbers[blocks[:, triangles].reshape(-1, 3)])
-            every.append(at[kept, :2])
-            elevations.append(moved[:, kept])
-            owners.append((number, len(kept), len(corners[-1])))
-            first += len(kept)
+    for number, at, moved, own in (part for process in gathered for part in process):
+        corners.append(first + own)
+        every.append(at)
+        elevations.append(moved)
+        owners.append((number, len(at), len(own)))
+        first += len(at)
     plate_of_points = np.repeat(*np.array([(number, count) for number, count, _ in owners]).T).astype(np.int32)
     plate_of_triangles = np.repeat(*np.array([(number, count) for number, _, count in owners]).T).astype(np.int32)
     joined, shown, triangles = _mirrored(modes, np.concatenate(every), np.concatenate(elevations, axis=1), corners)
@@ -110,6 +114,19 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
         plate_of_triangles=np.tile(plate_of_triangles, images),
         elevations=shown,
     )
+
+
+def _thinned(
+    number: int, points: FloatArray, values: FloatArray, triangles: NDArray[np.int64], pitch: float, divided: bool
+) -> tuple[int, FloatArray, FloatArray, NDArray[np.int64]]:
+    """Of lattices on facets the points, values and triangles that are left where points closer than a pitch are one.
+
+    On both sides of a baffle, where the water is divided, points stay two.
+    """
+    kept, numbers = _merged(points, pitch, values if divided else None)
+    corners = numbers.reshape(-1, triangles.max() + 1)[:, triangles].reshape(-1, 3)
+    distinct = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    return number, points[kept, :2], values[:, kept], corners[distinct]
 
 
 def problem_of(mode: LevelMode) -> VolumeProblem:
@@ -149,45 +166,38 @@ def _deflections(modes: tuple[LevelMode, ...], name: str, points: FloatArray) ->
     return np.array(values, dtype=np.float64)
 
 
-def volume_sample(
-    modes: tuple[LevelMode, ...],
-) -> tuple[FloatArray, NDArray[np.int64], FloatArray] | None:
-    """Return points (n, 3), quadratic tetrahedra (cells, 10) and ψ of each mode (modes, n) (collective).
+def volume_sample(modes: tuple[LevelMode, ...]) -> tuple[FloatArray, NDArray[np.int64], FloatArray]:
+    """Return the part of each process: points (n, 3), quadratic tetrahedra (cells, 10), ψ of each mode (modes, n).
 
-    ``None`` on other ranks than 0.
+    Nothing is gathered (collective).
     """
     liquid = problem_of(modes[0]).model.liquid
-    functions = as_functions(liquid, [one.mode.potential for one in modes])
     mesh = liquid.tank.mesh
-    corners = basix.geometry(basix.CellType.tetrahedron)
-    reference = np.vstack([corners, [0.5 * (corners[one] + corners[other]) for one, other in _MIDDLES]])
-    places = cell_positions(mesh, owned_cells(mesh), reference)
-    table = potential_basis(liquid, reference)
-    dofs = liquid.space.dofmap.list[: len(places)]
-    values = np.array([(function.x.array[dofs] @ table.T).ravel() for function in functions])
-    gathered = mesh.comm.gather((places.reshape(-1, 3), values), root=0)
-    if gathered is None:
-        return None
-    points = np.concatenate([part[0] for part in gathered])
-    potentials = np.concatenate([part[1] for part in gathered], axis=1)
-    tank = problem_of(modes[0]).model.tank
-    kept, numbers = _merged(points, potentials if tank.baffles or tank.lower else None)
-    potentials = potentials[:, kept]
-    every, shown, cells = _mirrored(modes, points[kept], potentials, [numbers.reshape(-1, len(reference))])
-    return every, cells, shown
+    quadratic = fem.functionspace(mesh, ("Lagrange", 2))
+    used, cells = np.unique(quadratic.dofmap.list[: len(owned_cells(mesh))][:, _OF_VTK], return_inverse=True)
+    nodes, values = fem.Function(quadratic), []
+    for function in as_functions(liquid, [one.mode.potential for one in modes]):
+        nodes.interpolate(function)
+        values.append(nodes.x.array[used])
+    points = quadratic.tabulate_dof_coordinates()[used]
+    every, shown, joined = _mirrored(
+        modes, points, np.array(values).reshape(len(modes), len(used)), [cells.reshape(-1, len(_OF_VTK))]
+    )
+    return every, joined, shown
 
 
-def _merged(points: FloatArray, values: FloatArray | None) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The first of each set of equal points, and the number of each point among them.
+def _merged(points: FloatArray, pitch: float, values: FloatArray | None) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The first of each set of points in one cell of a lattice, and the number of each point among them.
 
     Args:
         points: shape (n, dim).
-        values: of each mode at them, shape (modes, n), which differ on both sides of a baffle or an interface; ``None``
-            where there is none.
+        pitch: of the lattice.
+        values: of each mode at them, shape (modes, n), where points with other values are others; ``None`` elsewhere.
     """
-    keys = points / _SAME
+    keys = points / pitch
     if values is not None:
-        keys = np.column_stack([keys, (values / (_SAME_VALUE * np.abs(values).max(axis=1, keepdims=True))).T])
+        largest = np.abs(values).max(axis=1, keepdims=True) + np.finfo(float).tiny
+        keys = np.column_stack([keys, (values / (_SAME_VALUE * largest)).T])
     _, kept, numbers = np.unique(np.round(keys), axis=0, return_index=True, return_inverse=True)
     return kept, numbers.ravel()
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from mpi4py import MPI
 
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.level_tank.quantities import MODES
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
 from hydroelastic.output.quantities import Quantity
-from hydroelastic.output.vtu import write_vtu
+from hydroelastic.output.vtu import write_index, write_vtu
+from hydroelastic.physics.volume_tank import VolumeTank
 
 
 def write_level_tank(tank: SampledTank, folder: Path) -> None:
@@ -18,7 +20,37 @@ def write_level_tank(tank: SampledTank, folder: Path) -> None:
     write_modes(tank, folder)
     (folder / "fields").mkdir()
     write_surface(tank.sample, folder / "fields" / "surface.vtu")
-    write_volume(tank.sample, folder / "fields" / "volume.vtu")
+    if not in_parts(tank):
+        write_volume(tank.sample, folder / "fields" / "volume.vtu")
+
+
+def in_parts(tank: SampledTank) -> bool:
+    """Whether each process has a part of the volume."""
+    return isinstance(tank.tank.tank, VolumeTank) and MPI.COMM_WORLD.size > 1
+
+
+def write_parts(tank: SampledTank, folder: Path) -> None:
+    """Write ``fields/volume.pvtu`` and the part of each process, ``fields/volume/0000.vtu`` (collective).
+
+    Raises:
+        OSError: on all processes, if one of them cannot write.
+    """
+    comm, sample, parts = MPI.COMM_WORLD, tank.sample, folder / "fields" / "volume"
+    problem = None
+    try:
+        parts.mkdir(exist_ok=True)
+        write_volume(sample, parts / f"{comm.rank:04d}.vtu")
+    except OSError as error:
+        problem = error
+    for one in comm.allgather(problem):
+        if one is not None:
+            raise one
+    if comm.rank == 0:
+        write_index(
+            folder / "fields" / "volume.pvtu",
+            [f"volume/{rank:04d}.vtu" for rank in range(comm.size)],
+            [f"potential_{name}" for name in sample.names],
+        )
 
 
 def write_modes(tank: SampledTank, folder: Path) -> None:

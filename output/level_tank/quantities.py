@@ -15,7 +15,7 @@ from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
 from hydroelastic.output.level_tank.floats import FLOATS, FloatAtRest
-from hydroelastic.output.provenance import PROCESSES
+from hydroelastic.output.provenance import PROCESSES, largest_memory
 from hydroelastic.output.quantities import Group, Quantity, array
 
 
@@ -208,7 +208,9 @@ SOLVER = Group("solver", "how the modes were found", (
     Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
     Quantity("attempts", "resolutions that were solved", "1"),
     Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
-        value=lambda tank: tank.counted),
+        value=lambda tank: tank.counted, note="by what, `count_method` tells"),
+    Quantity("count_method", "what confirms the number of modes",
+        note='`"inertia"` of the matrices of a coarser model; of large volumes residuals and a second start'),
     Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
     Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
 ), record=lambda it: it.tank)
@@ -225,6 +227,7 @@ SIZE = Group("size", "size of the problem", (
     Quantity("surface_unknowns", "unknowns of plates and water", "1"),
     Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
     PROCESSES,
+    Quantity("memory_of_a_process", "largest memory of one process", "byte", value=lambda _: largest_memory()),
 ), record=lambda it: it.tank.size)
 # Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (

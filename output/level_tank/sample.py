@@ -18,7 +18,7 @@ _LEVELS = 12
 
 @dataclass(frozen=True, kw_only=True)
 class SampledModes:
-    """Mode shapes of a solved tank.
+    """Mode shapes of a solved tank; of a volume over several processes, the part of the volume of this one.
 
     Attributes:
         points: x and y on the still surface, m, shape (points, 2).
@@ -112,28 +112,34 @@ def sample_modes(solution: LevelSolution, patches: tuple[Patch, ...]) -> Sampled
     )
 
 
-def sample_volume(solution: LevelSolution) -> SampledModes | None:
-    """Return all modes at points of the mesh of a volume; ``None`` on other ranks than 0 (collective)."""
+def sample_volume(solution: LevelSolution) -> SampledModes:
+    """Return all modes at points of the mesh of a volume (collective).
+
+    The volume is that of each process. The surface is on rank 0 alone, for pictures, and thinned where it is large.
+    """
     # Solutions of other models do without dolfinx.
+    from mpi4py import MPI
+
     from hydroelastic.fem.volume.samples import surface_sample, volume_sample
 
     names = tuple(body_name(index + 1) for index in range(len(solution.tank.plates)))
     surface = surface_sample(solution.modes, names)
-    volume = volume_sample(solution.modes)
-    if surface is None or volume is None:
-        return None
+    points, cells, potentials = volume_sample(solution.modes)
     scale, unit = solution.units.length, _unit(solution)
-    elevations = surface.elevations
-    highest = elevations[np.arange(len(elevations)), np.abs(elevations).argmax(axis=1)]
-    signs = np.where(highest < 0.0, -unit, unit)[:, None]
-    points, cells, potentials = volume
+    count = len(potentials)
+    elevations = np.empty((count, 0)) if surface is None else surface.elevations
+    signs = None
+    if surface is not None:
+        highest = elevations[np.arange(count), np.abs(elevations).argmax(axis=1)]
+        signs = np.where(highest < 0.0, -unit, unit)[:, None]
+    signs = MPI.COMM_WORLD.bcast(signs)
     return SampledModes(
-        points=surface.points * scale,
-        triangles=surface.triangles,
-        plate_of_points=surface.plate_of_points,
-        plate_of_triangles=surface.plate_of_triangles,
-        names=tuple(f"{number:03d}" for number in range(1, len(elevations) + 1)),
-        numbers=tuple(range(len(elevations))),
+        points=np.empty((0, 2)) if surface is None else surface.points * scale,
+        triangles=np.empty((0, 3), np.int64) if surface is None else surface.triangles,
+        plate_of_points=np.empty(0, np.int32) if surface is None else surface.plate_of_points,
+        plate_of_triangles=np.empty(0, np.int32) if surface is None else surface.plate_of_triangles,
+        names=tuple(f"{number:03d}" for number in range(1, count + 1)),
+        numbers=tuple(range(count)),
         elevations=signs * elevations,
         volume_points=points * scale,
         volume_cells=("tetra10", cells),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.output.level_tank.quantities import ESTIMATES, EXACT, FIRST_ELASTIC, MODES
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.quantity_tables import headings, labelled_columns, listed
@@ -44,6 +45,8 @@ def compared_level_tank(summary: Summary) -> Iterator[Section]:
 def _modes(summary: Summary) -> Section:
     zero = summary["zero_modes"]
     lines = [summary["solver"]["model"][:1].upper() + summary["solver"]["model"][1:] + "."]
+    if summary["solver"]["count_method"] != BY_INERTIA:
+        lines.append(f"Their number is confirmed by {summary['solver']['count_method']}.")
     if any(mode["multiplicity"] == 2 for mode in summary["modes"]):
         lines.append("Modes of multiplicity 2 are pairs, cos nθ and sin nθ, of one frequency.")
     if zero:
@@ -62,8 +65,10 @@ def level_tank_cost(summary: Summary) -> str:
     """Return size and cost of the solution."""
     size = summary["size"]
     seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
+    mebibytes = size["memory_of_a_process"] / 2**20
+    largest = f", at most {mebibytes:.0f} of one of {size['processes']} processes" if size["processes"] > 1 else ""
     problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
     return (
         f"{problems}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
-        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB{largest}."
     )

@@ -172,35 +172,40 @@ def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str
 
 def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
     from hydroelastic.fem.level_bed.choice import MODEL_WORDS
+    from hydroelastic.fem.volume.distribution import unfolded_volume
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
-    from hydroelastic.fem.volume.resolution import volume_resolution
-    from hydroelastic.fem.volume.solve import unfolded_volume
+    from hydroelastic.fem.volume.resolution import volume_resolution, with_refinements
     from hydroelastic.meshes.tagged_mesh import MeshError
     from hydroelastic.meshes.tetrahedra import unknown_count
 
     words = MODEL_WORDS["volume"]
     yield f"{words[0].upper()}{words[1:]}."
-    resolution = volume_resolution(tank, tolerance, modes)
     mirrors = volume_mirrors(tank)
+    resolution = volume_resolution(tank, tolerance, modes, mirrors)
     try:
-        mesh = unfolded_volume(tank, resolution.sizes, mirrors).noded
+        sizes = with_refinements(tank, resolution.sizes, mirrors)
+        made = unfolded_volume(tank, sizes, mirrors)
     except MeshError as error:
         yield f"The volume cannot be meshed: {error}."
         return
-    unknowns = unknown_count(mesh, resolution.degree)
+    refinements = sizes.refinements if made.surfaces else 0
+    unknowns = unknown_count(made.noded, resolution.degree, refinements)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
     parts = 2 ** sum(mirror is not None for mirror in mirrors)
     if parts > 1:
         yield f"  Planes of symmetry leave {parts} problems on {'a half' if parts == 2 else 'a quarter'} of the tank."
     yield (
-        f"First attempt: degree {resolution.degree}, {len(mesh.cells)} tetrahedra, {unknowns} unknowns"
-        f"{shapes if resolution.polynomials else ''}."
+        f"First attempt: degree {resolution.degree}, {len(made.noded.cells) * 8**refinements} tetrahedra, "
+        f"{unknowns} unknowns{shapes if resolution.polynomials else ''}."
     )
+    if refinements:
+        yield f"  gmsh makes {len(made.noded.cells)}, which all processes refine {refinements} times together."
     solver = "a factorization" if unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
     free = free_memory()
     there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
     needed = memory_needed(unknowns, resolution.degree) / 2**30
     yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
-    yield "  The decay of ψ with the degree, and the volume of curved cells, show the error; where it is too large"
+    shown = "The decay of ψ with the degree" if resolution.degree > 2 else "What the third degree adds to ψ"
+    yield f"  {shown}, and the volume of curved cells, show the error; where it is too large"
     yield "  cells are made smaller at the edges of plates, elsewhere, or at curved walls."

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
@@ -20,21 +22,25 @@ from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.staged_run import StagedRun
 
 
-def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank | None:
+def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
     from hydroelastic.fem.plan.patches import level_patches
 
-    if isinstance(solved.tank.tank, VolumeTank):
-        sample = sample_volume(solved.tank)
-        return None if sample is None else SampledTank(solved=solved, sample=sample, summary=summary)
-    return SampledTank(
-        solved=solved, sample=sample_modes(solved.tank, level_patches(solved.tank.tank)), summary=summary
-    )
+    tank = solved.tank
+    is_volume = isinstance(tank.tank, VolumeTank)
+    sample = sample_volume(tank) if is_volume else sample_modes(tank, level_patches(tank.tank))
+    return SampledTank(solved=solved, sample=sample, summary=summary)
 
 
 def _write(tank: SampledTank, folder: Path) -> None:
     from hydroelastic.output.level_tank.files import write_level_tank
 
     write_level_tank(tank, folder)
+
+
+def _write_parts(tank: SampledTank) -> Callable[[Path], None] | None:
+    from hydroelastic.output.level_tank.files import in_parts, write_parts
+
+    return partial(write_parts, tank) if in_parts(tank) else None
 
 
 def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
@@ -52,6 +58,7 @@ run_level_tank = StagedRun(
     write=_write,
     draw=_draw,
     used_options=OF_FIELDS | OF_MOTIONS,
+    write_parts=_write_parts,
 )
 
 

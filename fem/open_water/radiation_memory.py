@@ -185,8 +185,9 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
                 start=masses(fast.coefficients[0]) * band.highest**2,
                 quickest=band.highest,
                 poles=np.conj(-1j * resonances * unit),
-                residues=np.array([masses(one) for one in residues.conj()], dtype=complex).reshape(-1, *limit.shape)
-                * unit**2,
+                residues=(unit**2 * np.array([masses(one) for one in residues.conj()]))
+                .reshape(-1, *limit.shape)
+                .astype(np.complex128),
             )
         found = _Found(
             memory=memory,

@@ -5,16 +5,24 @@ from __future__ import annotations
 from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
 from hydroelastic.output.quantities import Group, Quantity
 
-# fmt: off
-# A table: as many arguments on a line as fit.
 _CURVE = "spectrum_omega spectrum_quantity"
+
+
 def _load_error(key: str, words: str, symbol: str) -> Quantity:
     return Quantity(
-        f"{key}_error", f"estimated error of the significant {words}", "1", short=f"error {symbol}", shown=".0e", printed=False,
-        value=lambda it: it.relative_errors[key], note="relative to the largest along it",
+        f"{key}_error",
+        f"estimated error of the significant {words}",
+        "1",
+        short=f"error {symbol}",
+        shown=".0e",
+        printed=False,
+        value=lambda it: it.relative_errors[key],
+        note="relative to the largest along it",
     )
 
 
+# fmt: off
+# A table: as many arguments on a line as fit.
 SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
     Quantity("waves", "spectrum of the waves", variable="spectrum_of_waves"),
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable=""),

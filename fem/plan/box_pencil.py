@@ -18,7 +18,7 @@ from petsc4py import PETSc
 from scipy import sparse
 
 from hydroelastic.fem.level_bed.interval import IntervalSpace
-from hydroelastic.fem.liquid_answer import liquid_answer
+from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.fem.surfaces import LiquidSurface
@@ -159,8 +159,9 @@ def box_pencil(
         return pencil
     coupling = sparse.hstack([*loads, *([water[0]] if water else [])], format="csr")
     potentials = liquid.answer(coupling.T.toarray().reshape(-1, *liquid.shape)).reshape(-1, liquid.size).T
-    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.stiffness, pencil.body_size)
-    return replace(pencil, answer=answer)
+    # To count, its surfaces need not be scaled.
+    none, added_mass = np.empty((0, 0)), coupling.T @ potentials
+    return replace(pencil, answer=LiquidAnswer(potentials=potentials, added_mass=added_mass, root=none, scaled=none))
 
 
 def plate_loads(liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, LAPACK where it is small."""
+"""Natural modes by SLEPc: Krylov–Schur on the added-mass form of the pencil, LAPACK where it is small."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class ModeSet:
         zero_modes: how many motions without stiffness exist (not reported as modes).
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: number of converged eigenpairs.
-        iterations: restarts of the Krylov–Schur method; 0 of LAPACK.
+        iterations: restarts of the Krylov–Schur method; LAPACK counts as one.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
@@ -178,15 +178,13 @@ def _visible(inverses: np.ndarray) -> int:
 
 
 def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int | None], tolerance: float) -> ModeSet:
-    """A number of the lowest modes, and their shapes: all by LAPACK where there are few, else by SLEPc."""
+    """A number of the lowest modes, and their shapes."""
     count, shapes = asked
     count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
-    if pencil.size <= FEW or not count:
-        values, columns = np.linalg.eigh(dense.operator())
-        inverses, vectors, iterations = values[::-1], columns[:, ::-1], 0
-    else:
-        inverses, vectors, iterations = _largest(dense.operator(), count, tolerance)
-    count = _visible(inverses[:count]) if count else 0
+    inverses, vectors, iterations = (
+        _largest(dense.operator(), count, tolerance) if count else (np.empty(0), np.empty((pencil.size, 0)), 0)
+    )
+    count = _visible(inverses) if count else 0
     eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
     amplitudes = dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T
 
@@ -223,7 +221,8 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
 
 
 def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
-    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts."""
+    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts: by LAPACK where
+    it is small."""
     from slepc4py import SLEPc
 
     matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
@@ -233,6 +232,8 @@ def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.nda
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setTolerances(tolerance, 200)
     solver.setDimensions(count, min(2 * count + 12, len(operator)))
+    if len(operator) <= FEW:
+        solver.setType(SLEPc.EPS.Type.LAPACK)
     _, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     vector = matrix.createVecRight()

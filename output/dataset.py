@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydroelastic.output.json_values import json_ready
-from hydroelastic.output.netcdf3 import StoredVariable, netcdf3
 from hydroelastic.output.provenance import OF_ALL_SCENES, Summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.summary_variables import summary_variables
@@ -53,7 +52,7 @@ def global_attributes(summary: Summary) -> dict[str, str]:
 
 
 def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping[str, Any]) -> None:
-    """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read.
+    """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read and write.
 
     Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them. Texts and truth
     values are written as xarray does, which reads them back. Empty arrays, which this format does not have, are left
@@ -62,21 +61,27 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
     Raises:
         ValueError: if two arrays have different lengths along the same dimension.
     """
+    from scipy.io import netcdf_file
+
     found = [separate_parts(variable) for variable in variables if variable.values.size]
     if any("complex" in variable.dimensions for variable in found):
         found = merged(found, [PARTS])
     further = [variable.name for variable in found if variable.is_coordinate]
     sizes: dict[str, int] = {}
-    stored = []
-    for variable in found:
-        values, dimensions, coding = _stored(variable)
-        for name, size in zip(dimensions, values.shape, strict=True):
-            if sizes.setdefault(name, size) != size:
-                raise ValueError(f"{variable.name} has {size} values along {name}, others have {sizes[name]}")
-        told = {name: _attribute(value) for name, value in {**variable.attributes, **coding}.items()}
-        stored.append(StoredVariable(name=variable.name, dimensions=dimensions, values=values, attributes=told))
-    of_file = {**attributes, **({"coordinates": " ".join(further)} if further else {})}
-    path.write_bytes(netcdf3(sizes, stored, {name: _attribute(text) for name, text in of_file.items()}))
+    with netcdf_file(path, "w", version=2) as file:
+        for name, text in {**attributes, **({"coordinates": " ".join(further)} if further else {})}.items():
+            setattr(file, name, _attribute(text))
+        for variable in found:
+            values, dimensions, coding = _stored(variable)
+            for name, size in zip(dimensions, values.shape, strict=True):
+                if sizes.setdefault(name, size) != size:
+                    raise ValueError(f"{variable.name} has {size} values along {name}, others have {sizes[name]}")
+                if name not in file.dimensions:
+                    file.createDimension(name, size)
+            stored = file.createVariable(variable.name, values.dtype, dimensions)
+            stored.data[...] = values
+            for name, value in {**variable.attributes, **coding}.items():
+                setattr(stored, name, _attribute(value))
 
 
 def _stored(variable: Variable) -> tuple[np.ndarray[Any, Any], tuple[str, ...], dict[str, str]]:

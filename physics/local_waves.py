@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from math import pi, tanh
 
 from hydroelastic.physics.beam_parts import Section
-from hydroelastic.physics.brent import brent_root
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 _WIDEST = 1e12  # Upper bound of dimensionless wavenumbers.
@@ -58,7 +57,9 @@ class LevelPiece:
             high *= 4.0
         if high >= _WIDEST:
             return _WIDEST
-        return brent_root(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high)
+        from scipy.optimize import brentq  # slow to import, so only when used
+
+        return float(brentq(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high))
 
 
 def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
@@ -106,4 +107,6 @@ def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> fl
         high *= 4.0
     while modes_below(pieces, low) > wanted:
         low /= 256.0
-    return brent_root(lambda value: modes_below(pieces, value) - wanted, low, high, relative_tolerance=1e-3)
+    from scipy.optimize import brentq
+
+    return float(brentq(lambda value: modes_below(pieces, value) - wanted, low, high, rtol=1e-3))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.special import bernoulli, zeta
 
 from hydroelastic.modal.beam.cosine_moments import cosine_moments, tip_values
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
@@ -13,12 +14,6 @@ from hydroelastic.physics.arrays import FloatArray
 
 _TERMS_PER_WAVE = 4000
 _MOST_TERMS = 1_000_000
-_ZETA_3 = 1.2020569031595942
-# ζ(2), ζ(4) … ζ(52): from ζ(8) on a hundred terms suffice.
-_EVEN_ZETAS = (
-    *(math.pi**2 / 6, math.pi**4 / 90, math.pi**6 / 945),
-    *(sum(n**-power for n in range(100, 0, -1)) for power in range(8, 54, 2)),
-)
 
 
 def lid_added_mass(beam: FloatingBeam, index: int = 2) -> float:
@@ -72,8 +67,8 @@ def _jump_series(scaled: FloatingBeam, value: FloatArray) -> float:
 def cosine_cube_sum(angle: float) -> float:
     """Return Σ_{n ≥ 1} cos(nα)/n³ to rounding.
 
-    Its power series ζ(3) − (α²/2)(3/2 − ln α) − Σ_{j ≥ 1} 2 ζ(2j) (α/2π)^{2j} α²/(2j (2j+1)(2j+2)) converges like
-    (α/2π)^{2j}, and α is first brought to [0, π].
+    Its power series ζ(3) − (α²/2)(3/2 − ln α) + Σ_{j ≥ 2} (−1)^j ζ(3−2j) α^{2j}/(2j)! converges like (α/2π)^{2j}, and
+    α is first brought to [0, π].
 
     Args:
         angle: α, rad, any.
@@ -86,11 +81,12 @@ def cosine_cube_sum(angle: float) -> float:
     folded = math.fmod(abs(angle), 2 * math.pi)
     folded = min(folded, 2 * math.pi - folded)
     if folded == 0:
-        return _ZETA_3
-    total = _ZETA_3 - folded**2 / 2 * (1.5 - math.log(folded))
-    for order, zeta in enumerate(_EVEN_ZETAS, 1):
-        k = 2 * order
-        total -= 2 * zeta * (folded / (2 * math.pi)) ** k * folded**2 / (k * (k + 1) * (k + 2))
+        return float(zeta(3))
+    total = float(zeta(3)) - folded**2 / 2 * (1.5 - math.log(folded))
+    numbers = bernoulli(54)
+    for j in range(2, 28):
+        # ζ(3 − 2j) = −B_{2j−2}/(2j − 2).
+        total -= (-1) ** j * numbers[2 * j - 2] / (2 * j - 2) * folded ** (2 * j) / math.factorial(2 * j)
     return total
 
 

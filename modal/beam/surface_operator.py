@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import beta, betainc
 
 from hydroelastic.modal.beam.dry_modes import free_free_wavenumber
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
@@ -14,10 +15,7 @@ from hydroelastic.physics.arrays import FloatArray
 GRADING = 12
 """Order of the graded substitution: its derivative vanishes like (distance)^(GRADING − 1) at the tips."""
 
-_BETA = math.factorial(GRADING - 1) ** 2 / math.factorial(2 * GRADING - 1)
-"""B(GRADING, GRADING)."""
-
-_PEAK = 0.25 ** (GRADING - 1) / _BETA
+_PEAK = float(0.25 ** (GRADING - 1) / beta(GRADING, GRADING))
 """Largest spacing in the middle of a segment over the mean one."""
 
 _FEWEST_NODES = 48
@@ -114,16 +112,12 @@ def surface_operator(beam: FloatingBeam, node_counts: list[int]) -> SurfaceOpera
 def _graded_unit(count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return end points (0 or 1), offsets from them, and weights of ``count`` graded nodes on [0, 1]."""
     u = (np.arange(count) + 0.5) / max(count, 1)
-    # The regularized incomplete beta function of whole numbers is a sum of positive terms.
-    order = 2 * GRADING - 1
-    k = np.arange(GRADING, order + 1)[:, None]
-    ways = np.array([[math.comb(order, number)] for number in range(GRADING, order + 1)])
-    from_start = np.sum(ways * u**k * (1 - u) ** (order - k), axis=0)
-    from_end = from_start[::-1]
+    from_start = betainc(GRADING, GRADING, u)
+    from_end = betainc(GRADING, GRADING, u[::-1])
     second_half = u > 0.5
     anchor = np.where(second_half, 1.0, 0.0)
     offset = np.where(second_half, -from_end, from_start)
-    slope = (u * (1 - u)) ** (GRADING - 1) / _BETA
+    slope = (u * (1 - u)) ** (GRADING - 1) / beta(GRADING, GRADING)
     return anchor, offset, slope / max(count, 1)
 
 

@@ -45,7 +45,13 @@ STUDIED = {
 # At the width that pages show.
 SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes of which the most telling pictures alone are kept, and smaller, with their names.
-FEW = {"ice_floe": "*response_1.png", "ship_tank": "mode_001.png", "spherical_tank": "mode_001.png"}
+FEW = {
+    "hemisphere": "*response_1.png",
+    "ice_floe": "*response_1.png",
+    "point_absorber": "*response_1.png",
+    "ship_tank": "mode_001.png",
+    "spherical_tank": "mode_001.png",
+}
 SMALL = PictureOptions(width=400, dpi=50)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")

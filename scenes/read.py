@@ -8,7 +8,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -16,10 +16,10 @@ from pydantic import ValidationError
 
 from hydroelastic.scenes import models
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
-from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
-from hydroelastic.scenes.number_texts import how_to_write, how_to_write_line
+from hydroelastic.scenes.number_texts import how_to_write_line
+from hydroelastic.scenes.overrides import Document, changes_of, override
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.words import nearest, proposal
 
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.models.sea import SeaScene
     from hydroelastic.scenes.models.string import StringScene
     from hydroelastic.scenes.models.thread import ThreadScene
-
-Document: TypeAlias = dict[str, Any]
 
 Scene: TypeAlias = "TankScene | SeaScene | LevelTankScene | OrderedTankScene | StringScene | ThreadScene | RollScene"
 
@@ -161,9 +159,9 @@ class SceneSource:
             SceneError: if an override or a value is invalid.
         """
         document = deepcopy(self.document)
-        changes = tuple(change for some in overrides for change in _changes(some))
+        changes = tuple(change for some in overrides for change in changes_of(some))
         for change in changes:
-            _override(document, change)
+            override(document, change)
         label = _label(self.file) if self.file is not None else "the scene"
         if changes:
             label += f" with {' '.join(f'{change.option} {change.text}' for change in changes)}"
@@ -306,86 +304,6 @@ def _model_of(document: Document, label: str) -> type[Scene]:
 
         return LevelTankScene
     return SCENE_MODELS[kind]
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Change:
-    """A value that replaces one of the document.
-
-    Attributes:
-        key: dotted.
-        value: the new one.
-        text: key and value as messages show them.
-        option: what messages call it.
-    """
-
-    key: str
-    value: Any
-    text: str
-    option: str = "--set"
-
-
-def _changes(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[_Change]:
-    if isinstance(overrides, Mapping):
-        for key, value in overrides.items():
-            new = plain(value)
-            yield _Change(key=key, value=new, text=f"{key} = {shown_value(new) or '…'}", option="change")
-        return
-    for text in overrides:
-        key, equals, value = text.partition("=")
-        change = _Change(key=key, value=None, text=text)
-        if not equals or not all(name.strip() for name in key.split(".")):
-            raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
-        yield replace(change, value=_override_value(change, value.strip()))
-
-
-def _override(document: Document, change: _Change) -> None:
-    """Replace one value in the document."""
-    names = [name.strip() for name in change.key.split(".")]
-    holder: Any = document
-    for place in range(len(names) - 1):
-        index = _index_in(holder, names, place, change)
-        holder = holder.setdefault(index, {}) if isinstance(holder, dict) else holder[index]
-    holder[_index_in(holder, names, len(names) - 1, change)] = change.value
-
-
-def _index_in(holder: Any, names: list[str], place: int, change: _Change) -> Any:
-    """Return the index of a name in a table (the key) or in a list (the number of the entry)."""
-    name = names[place]
-    if isinstance(holder, dict) and not name.isdigit():
-        return name
-    if not isinstance(holder, list):
-        raise _bad_override(change, f'"{name}" needs a {"list" if name.isdigit() else "table"}, which is not there')
-    numbers = {str(number): number - 1 for number in range(1, len(holder) + 1)}
-    if name not in numbers:
-        entries = ", ".join(numbers) or "none, the list is empty"
-        remedy = "Entries are numbered from 1"
-        if numbers and (name == "0" or not name.lstrip("+-").isdigit()):
-            rest = names[place + 1 :] if name == "0" else names[place:]
-            remedy += f": write {'.'.join((*names[:place], '1', *rest))} for the first"
-        raise _bad_override(change, f'"{name}" is not an entry of the list', remedy, allowed=entries)
-    return numbers[name]
-
-
-_BARE_TEXT = re.compile(r"[^\W\d][^\"'=\[\]{}\n]*|[./~][^\"'=\[\]{}\n]*")
-
-
-def _override_value(change: _Change, text: str) -> Any:
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-        if list(parsed) == ["value"]:  # a line break in the text would start another key
-            return parsed["value"]
-    except (ValueError, RecursionError):
-        # A text that is nearly a number is refused later by validation, where the allowed values are known.
-        if _BARE_TEXT.fullmatch(text) or how_to_write(text):
-            return text
-    raise _bad_override(change, "the value is not TOML", "Put a text in quotes")
-
-
-def _bad_override(change: _Change, wrong: str, remedy: str = "", *, allowed: str = "") -> SceneError:
-    return SceneError(
-        Problem(key=change.option, value=shown_value(change.text), wrong=wrong, allowed=allowed, remedy=remedy)
-    )
 
 
 def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:

@@ -39,7 +39,7 @@ def deflections_of_order(model: OpenModel, motions: np.ndarray, positions: int) 
     for index, (body, own) in enumerate(zip(model.basin.tank.bodies, model.pencil.bodies, strict=True)):
         part, first = motions[..., first : first + own.size], first + own.size
         if isinstance(body, RoundPlate):
-            radii: Floats = np.linspace(body.inner_radius, body.radius, (positions + 1) // 2)
+            radii = np.linspace(body.inner_radius, body.radius, (positions + 1) // 2, dtype=np.float64)
             shapes, length = RoundShapes(body, own.size), model.basin.units.length
             derivatives = [part @ shapes.values(radii, order) / length**order for order in range(4)]
             found.append(

@@ -7,7 +7,6 @@ it, with the equations of motion at these frequencies; see `physics/attachments.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import reduce
 from math import nan
@@ -16,17 +15,21 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.beam_loads import BeamLoads
 from hydroelastic.fem.open_water.curves import Curves, certified_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
-from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of, drift_of_orders
-from hydroelastic.fem.open_water.outside import displacement_at
+from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import incident_places, outcome, plate_deflection, response_errors
-from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
+from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
+from hydroelastic.fem.open_water.results import IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
+from hydroelastic.fem.open_water.spectrum_rows import (
+    motion_errors,
+    order_of_motions,
+    plate_statistics,
+    response_rows,
+)
 from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
@@ -34,7 +37,6 @@ from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import IRREGULAR
-from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
@@ -43,8 +45,6 @@ _FIRST = 33
 _BEYOND, _WIDEST = 0.5, 2.0
 # Frequencies over the last one, above which the drift force tells how it may change beyond.
 _LAST = 0.7
-_CAUSES = ("sampling_error", "truncation_error", "transfer_error")
-_LOADS = ("deflection", "bending_moment", "shear_force")
 # How often all intervals between frequencies are halved for the sake of the moments.
 _HALVINGS = 3
 # Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
@@ -150,14 +150,14 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
     errors = np.max([one.errors for one in curves], axis=0)
-    rows = _rows(models, request)
+    rows = response_rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
-    deviations = _deviation(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
+    deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)
-    order, dofs = _order_of(models)
+    order, dofs = order_of_motions(models)
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
     unit = units.density * units.gravity * units.volume * units.length / units.frequency
@@ -193,15 +193,8 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         mean_absorbed_power=_mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
         # Sections alone have beams, and one order.
-        plates=tuple(_plates(request, curves[0], motions, drag)),
+        plates=tuple(plate_statistics(request, curves[0], motions, drag)),
     )
-
-
-def _order_of(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...]]:
-    """Return the places of the motions of all orders, body by body, and these motions."""
-    dofs = [dof for model in models for dof in model.scale.dofs]
-    order = sorted(range(len(dofs)), key=lambda place: dofs[place].body or 1)
-    return order, tuple(dofs[place] for place in order)
 
 
 def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -347,88 +340,3 @@ def _mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndar
     speeds = omegas[:, None] * (motions @ vectors)
     taken = float(moments(request.spectrum, omegas, speeds, (0,))[0] @ np.maximum(values, 0.0))
     return units.density * units.gravity * units.volume / units.length / units.frequency * taken
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Row:
-    """A response: its part of each body unknown, in SI units per unit elevation; times −ω² for an acceleration."""
-
-    name: str
-    unit: str
-    direction: np.ndarray
-    is_acceleration: bool = False
-
-
-def _rows(models: list[OpenModel], request: SpectrumRequest) -> list[_Row]:
-    """Motions of rigid bodies, and motions and accelerations of points."""
-    elastic, length = models[0].basin.tank.elastic, models[0].basin.units.length
-    motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
-    order, dofs = _order_of(models)
-    rows = [
-        _Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motions[place].astype(complex))
-        for place, dof in zip(order, dofs, strict=True)
-        if (dof.body or 1) - 1 not in elastic
-    ]
-    for number, (index, point) in enumerate(request.points, 1):
-        moved = np.hstack([_moved(model, index, point) for model in models])
-        rows.append(_Row(name=f"point {number} up", unit="m", direction=moved[0]))
-        if index not in elastic:
-            rows.append(_Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
-        rows.append(_Row(name=f"point {number} acceleration up", unit="m/s²", direction=moved[0], is_acceleration=True))
-    return rows
-
-
-def _moved(model: OpenModel, index: int, point: tuple[float, float]) -> np.ndarray:
-    """Heave, sway and rotation of a point of a body by a unit of each body unknown, shape (3, unknowns)."""
-    starts = np.cumsum([0, *(body.size for body in model.pencil.bodies)])
-    moved = np.zeros((3, starts[-1]), dtype=complex)
-    moved[:, starts[index] : starts[index + 1]] = displacement_at(model.basin, model.pencil.bodies[index], index, point)
-    return moved
-
-
-def _deviation(models: list[OpenModel], errors: np.ndarray, motions: np.ndarray) -> np.ndarray:
-    """Errors of the motions per elevation, shape (n, unknowns): relative to the largest of the same unit."""
-    turns = np.array([dof.is_rotation for model in models for dof in model.scale.dofs])
-    sizes = np.abs(motions)
-    largest = np.stack([sizes[:, turns == turn].max(axis=1) for turn in turns], axis=1)
-    deviation: np.ndarray = errors[:, None] * largest
-    return deviation
-
-
-def _plates(
-    request: SpectrumRequest, curves: Curves, motions: np.ndarray, drag: np.ndarray
-) -> Iterator[PlateStatistics]:
-    """Deflection, bending moment and shear force along each beam."""
-    model = curves.solver.model
-    for index, beam in model.basin.tank.beams.items():
-        x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
-        along = BeamLoads(model, index, x)
-        found = [
-            along.of(one, motion[None] / one.per_elevation(RIGHTWARD)[0], drag[None])
-            for one, motion in zip(curves.responses, motions, strict=True)
-        ]
-        plate = plate_deflection(model, index, x, curves.responses, found, curves.errors)
-        told, parts = {}, np.zeros((len(_CAUSES), len(_LOADS)))
-        for place, name in enumerate(_LOADS):
-            transfer = getattr(plate, name)[:, 0]
-            deviation = np.broadcast_to(getattr(plate, f"{name}_error"), transfer.shape)
-            told[name] = statistics(request.spectrum, curves.omegas, transfer, deviation, request.duration)
-            sizes = told[name].significant_amplitude
-            for row, cause in enumerate(_CAUSES):
-                # √(m₀ + δm₀) − √m₀: where hardly anything acts, as at the ends, the error is larger than the value.
-                grown = np.sqrt(1.0 + 2.0 * getattr(told[name], cause)) - 1.0
-                parts[row, place] = (grown * sizes).max() / max(sizes.max(), np.finfo(float).tiny)
-        largest = parts.max(axis=1).tolist()
-        yield PlateStatistics(
-            body=index,
-            positions=plate.positions,
-            significant_deflection=told["deflection"].significant_amplitude,
-            significant_bending_moment=told["bending_moment"].significant_amplitude,
-            largest_bending_moment=told["bending_moment"].largest_amplitude,
-            significant_shear_force=told["shear_force"].significant_amplitude,
-            largest_stress=np.multiply(6.0 / request.thickness**2, told["bending_moment"].largest_amplitude)
-            if request.thickness
-            else None,
-            relative_errors=dict(zip(_LOADS, parts.sum(axis=0).tolist(), strict=True)),
-            **dict(zip(_CAUSES, largest, strict=True)),
-        )

@@ -16,6 +16,7 @@ from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
 from hydroelastic.output.open_water.bodies import BODIES
 from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
+from hydroelastic.output.open_water.estimates import ESTIMATES
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
@@ -365,42 +366,6 @@ DECAY = Group("decay", "motion after release, by analysis", (
     joined_array("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
 ), dimension="decay_analysis", note=NUMBERED)
-THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
-    Quantity("quantity", "quantity"),
-    Quantity("theory", "by the theory"),
-    Quantity("field", "by the field solution"),
-    Quantity("difference", "relative difference of the theory from the field solution", "1"),
-), dimension="thin_float_row", prefix="thin_float")
-
-
-ROUND_BODY_ROWS = Group("rows", "values by the theory and by the field solution", (
-    Quantity("quantity", "quantity"),
-    Quantity("theory", "by the theory"),
-    Quantity("field", "by the field solution"),
-    Quantity("difference", "relative difference of the theory from the field solution", "1"),
-), dimension="round_body_row", prefix="round_body")
-
-
-def _poles(key: str, meaning: str, unit: str) -> Quantity:
-    name = f"endless_float_{key}_entry"
-    return Quantity(key, meaning, unit, dimensions=(name, f"{name}_2"))
-
-
-ESTIMATES = Group("estimates", "older theories beside the field solution", (
-    Group("thin_float", "the thin-float theory", (
-        THIN_FLOAT_ROWS,
-        Quantity("note", "what the theory neglects, or why it has no value"),
-    ), record=lambda solution: dict(zip(("rows", "note"), solution.thin_float, strict=True)),
-        note="of a lone float that heaves and whose shape is a half-width over height"),
-    Group("endless_float", "the float of infinite draught, by its closed form", (
-        Quantity("cut", "largest difference that the end of the float makes, of the displacement", "1"),
-        _poles("resonances", "complex frequencies of heave and of the second pole, parts", "rad/s"),
-        _poles("residues", "residues of both, parts", "1"),
-    ), note="`null` for other floats"),
-    Group("round_body", "closed forms and older estimates of a lone body of revolution", (ROUND_BODY_ROWS,),
-        record=lambda solution: {"rows": solution.round_body},
-        note="long waves, Haskind's relation, MacCamy and Fuchs of upright cylinders, the rigid disc"),
-), record=lambda solution: solution, prefix="")
 
 
 def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | None = None) -> Quantity:

@@ -17,13 +17,13 @@ from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, columns_of, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.bodies import bodies_section
+from hydroelastic.output.open_water.estimates import THIN_FLOAT_ROWS
 from hydroelastic.output.open_water.files import STRAIN, open_columns
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
-    THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,
 )

@@ -121,9 +121,9 @@ def test_plates_on_two_liquids(row: dict[str, Any], tolerance: float) -> None:
 def test_transmission_is_the_same_from_either_side(number: int) -> None:
     row = PLATES[number - 1]
     start = 3.0
-    left, right = (response(plate(row, 1e-4, start), row["omega"], waves_from=side).table for side in ("left", "right"))
+    left, right = (response(plate(row, 1e-6, start), row["omega"], waves_from=side).table for side in ("left", "right"))
     # Phases are counted from x = 0: those of the transmitted wave are the same, those of the reflected ones are not.
-    # By Green's theorem up to the quadrature of fluxes: measured 9e-10.
+    # On one mesh by Green's theorem; loads may ask for a finer one from one side: measured 3e-10.
     assert left.transmission[0, 0, 0] == pytest.approx(right.transmission[0, 0, 0], abs=1e-8)
     assert abs(left.reflection[0, 0, 0]) == pytest.approx(abs(right.reflection[0, 0, 0]), abs=2e-4)
     # From the right is from the left for the plate that is turned.

@@ -50,7 +50,7 @@ def _assert_kept(name: str, tolerance: float, count: int) -> None:
     assert 1.0 <= solution.relative_errors[:count].max() / errors.max() < 30.0
 
 
-@pytest.mark.slow_but("rectangle_base_s0", "disc_full_s0")
+@pytest.mark.slow_but("rectangle_base_s0", "disc_full_s0", "disc_rigid_s0")
 @pytest.mark.parametrize("name", OUTLINES)
 def test_outlines_keep_a_tolerance_of_1e_4(name: str) -> None:
     # The low modes of a soft plate and of water alone are far better than their estimates.

@@ -200,5 +200,6 @@ def merged_errors(
     errors = np.zeros((causes, len(solution.origins)))
     for number, one in enumerate(solution.classes):
         own = [index for index, (origin, _) in enumerate(solution.origins) if origin == number]
-        errors[:, own] = estimate(one, [solution.completed(index) for index in own])
+        if own:
+            errors[:, own] = estimate(one, [solution.completed(index) for index in own])
     return errors

@@ -16,8 +16,7 @@ from hydroelastic.output.string.quantities import HANGING_STRING
 from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.physics.dofs import Dof
-from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES
-from hydroelastic.scenes.models.tank_kinds import is_level_tank
+from hydroelastic.scenes.models.body_kinds import kind_of_sea_body
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3
@@ -32,11 +31,11 @@ def answer(summary: Summary) -> Section:
     Args:
         summary: content of ``summary.json``.
     """
-    scene = summary["scene"]
-    rows = {"tank": _tank, "sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
-    if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
+    kind = summary["scene"]["kind"]
+    rows = {"sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}.get(kind, _tank)
+    if "radiation" in summary:
         rows = _open_water
-    elif is_level_tank(scene):
+    elif kind == "tank" and "floats" not in summary:
         rows = _level_tank
     return Section(title="", headings=("quantity", "value", "estimated relative error"), rows=list(rows(summary)))
 
@@ -100,7 +99,7 @@ def _elastic(kind: Group, summary: Summary, what: str) -> Iterator[Row]:
 
 def _open_water(summary: Summary) -> Iterator[Row]:
     """The largest values of each analysis, and the slowest resonances."""
-    is_whole = any(body.get("shape") in SOLID_SHAPES for body in summary["scene"]["body"])
+    is_whole = any(kind_of_sea_body(body) in ("plate", "solid") for body in summary["scene"]["body"])
     for table in summary["radiation"]:
         yield from _largest_damping(table, is_whole)
     for table in summary["response"]:

@@ -115,27 +115,27 @@ def test_a_disc_beside_the_axis_approaches_the_one_on_it() -> None:
     assert np.abs(far / omega - 1.0).max() > 3e-3
 
 
-def test_elevations_of_the_water_are_those_of_its_potential() -> None:
+@pytest.mark.slow_but("box")
+@pytest.mark.parametrize("count", [1, 2], ids=["box", "plan"])
+def test_elevations_of_the_water_are_those_of_its_potential(count: int) -> None:
     plates = (
         Plate(outline=Rectangle(position=(2.5, 3.0), size=(3.0, 2.0)), flexural_rigidity=5e3, mass_per_area=50.0),
         Plate(outline=Disc(position=(7.0, 3.2), radius=1.2), flexural_rigidity=1e4, mass_per_area=80.0),
     )
-    tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=plates, **WATER)
-    found = solve_smallest_model(tank, tolerance=1e-3, modes=3)
-    box = replace(tank, plates=plates[:1])
-    for solution in (found, solve_smallest_model(box, tolerance=1e-3, modes=3)):
-        # The third place is under no plate, the second one under the rectangle.
-        x, y = np.array([0.52, 0.25, 0.05]), np.array([0.30, 0.34, 0.55])
-        for one in solution.modes:
-            sampled = one.problem.sampled(one.mode, x, y, second=False)
-            pressure = one.mode.eigenvalue * sampled.potential(0.0, solution.tank.depth)
-            # Standing waves of less than 1e-7 of the largest one are left out.
-            assert sampled.elevation[[0, 2]] == pytest.approx(pressure[[0, 2]], rel=1e-5, abs=1e-5)
-            assert abs(sampled.elevation[1] / pressure[1] - 1.0) > 1e-4
-            # ψ_z = 0 on the bed.
-            step = 1e-3 * solution.tank.depth
-            values = [sampled.potential(z - solution.tank.depth, solution.tank.depth) for z in (0.0, step)]
-            assert values[1] == pytest.approx(values[0], rel=1e-4, abs=1e-6)
+    tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=plates[:count], **WATER)
+    solution = solve_smallest_model(tank, tolerance=1e-3, modes=3)
+    # The third place is under no plate, the second one under the rectangle.
+    x, y = np.array([0.52, 0.25, 0.05]), np.array([0.30, 0.34, 0.55])
+    for one in solution.modes:
+        sampled = one.problem.sampled(one.mode, x, y, second=False)
+        pressure = one.mode.eigenvalue * sampled.potential(0.0, solution.tank.depth)
+        # Standing waves of less than 1e-7 of the largest one are left out.
+        assert sampled.elevation[[0, 2]] == pytest.approx(pressure[[0, 2]], rel=1e-5, abs=1e-5)
+        assert abs(sampled.elevation[1] / pressure[1] - 1.0) > 1e-4
+        # ψ_z = 0 on the bed.
+        step = 1e-3 * solution.tank.depth
+        values = [sampled.potential(z - solution.tank.depth, solution.tank.depth) for z in (0.0, step)]
+        assert values[1] == pytest.approx(values[0], rel=1e-4, abs=1e-6)
 
 
 @pytest.mark.parametrize(

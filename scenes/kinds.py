@@ -54,12 +54,18 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
     Raises:
         SceneError: if there is no field solution of such a scene, or no theory.
     """
-    if isinstance(scene, TankScene):
+    if isinstance(scene, TankScene) or scene.kind == "sea":
         closed_tank(scene, "the older theories that are compared are those of closed tanks")
         from hydroelastic.scenes.tank.run import compare_tank
 
         return compare_tank
     if scene.kind == "tank":
+        from hydroelastic.scenes.models.round_tank import OrderedTankScene
+
+        if isinstance(scene, OrderedTankScene):
+            from hydroelastic.scenes.round_tank.run import compare_round_tank
+
+            return compare_round_tank
         from hydroelastic.scenes.level_tank.run import compare_level_tank
 
         return compare_level_tank

@@ -32,7 +32,12 @@ from hydroelastic.scenes.run import run_scene
 
 PARTS = ["Answer", "Results", "Beside estimates and closed forms", "What was modelled, and why", "Scene", "Cost"]
 # What is the only thing of its kind is a sentence among the results, not a part of its own.
-ALONE = {"open": "There is no comparison with older theories", "string": "This is the closed form"}
+ALONE = {
+    "open": "There is no comparison with older theories",
+    "round tank": "There is no comparison",
+    "canal": "There is no comparison",
+    "string": "This is the closed form",
+}
 
 Reports = Callable[[str], tuple[Outcome, str]]
 
@@ -50,7 +55,7 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
     return made
 
 
-@pytest.mark.slow_but("tank", "roll")
+@pytest.mark.slow_but("tank", "roll", "sea", "round tank", "canal")
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_is_whole(reports: Reports, kind: str) -> None:
     outcome, html = reports(kind)
@@ -140,6 +145,10 @@ KNOWN = {
     "tank": ("EI/(ρ g l⁴)", "0.001991", "grammel_1", "neglects", "tolerance = 0.0001"),
     "float": ("c33 heave, N/m²", "thin_float", "half_width"),
     "open": ("outgoing waves only", "Lengths of outgoing waves at 3 rad/s", 'ends = "open"'),
+    "sea": ("radiation damping of heave", 'shape = "sphere"'),
+    "plates": ("cross-wave", "flexural_rigidity"),
+    "round tank": ("Order by order", 'shape = "sphere"'),
+    "canal": ("Order by order", "outline"),
     "string": ("Series of Bessel functions", "hydroelastic compare", "gravity = 9.81  # default"),
     "thread": ("Largest difference of a tension from older theories", "catenary", "Estimates that do not apply"),
     "roll": ("all formulas as printed", "Closed form from wave to wave", "number = 1201"),

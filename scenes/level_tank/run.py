@@ -75,6 +75,10 @@ def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _messag
         SceneError: if no solver takes it.
         UnsolvedError: if the eigen-solver fails.
     """
-    outcome = run_level_tank(scene, report=report)
+    return beside_estimates(run_level_tank(scene, report=report))
+
+
+def beside_estimates(outcome: Outcome) -> Outcome:
+    """Return an outcome with the tables of the comparison alone."""
     compared = tuple(compared_level_tank(outcome.summary)) or (Section(title="", lines=(NOTHING_TO_COMPARE,)),)
     return replace(outcome, sections=compared, notes=True)

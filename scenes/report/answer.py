@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import hypot, inf
 from typing import TypeAlias
 
@@ -17,6 +17,7 @@ from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.body_kinds import kind_of_sea_body
+from hydroelastic.scenes.report.families import Family, family_of
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3
@@ -31,12 +32,7 @@ def answer(summary: Summary) -> Section:
     Args:
         summary: content of ``summary.json``.
     """
-    kind = summary["scene"]["kind"]
-    rows = {"sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}.get(kind, _tank)
-    if "radiation" in summary:
-        rows = _open_water
-    elif kind == "tank" and "floats" not in summary:
-        rows = _level_tank
+    rows = _ROWS[family_of(summary)]
     return Section(title="", headings=("quantity", "value", "estimated relative error"), rows=list(rows(summary)))
 
 
@@ -194,3 +190,13 @@ def _roll(summary: Summary) -> Iterator[Row]:
     name = f"largest angle, at {response['time_of_largest_angle']:.4g} s"
     yield _declared(ROLL_RESPONSE, response, "largest_angle", name)
     yield _declared(ROLL_RESPONSE, response, "largest_angle_degrees", "the same")
+
+
+_ROWS: dict[Family, Callable[[Summary], Iterator[Row]]] = {
+    "tank": _tank,
+    "level tank": _level_tank,
+    "open water": _open_water,
+    "string": _string,
+    "thread": _thread,
+    "roll": _roll,
+}

@@ -13,6 +13,7 @@ from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
+from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -29,8 +30,8 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
         scene: the scene.
         outcome: of its run.
     """
-    if isinstance(scene, TankScene):
-        return _tank(scene, outcome)
+    if isinstance(scene, TankScene) or scene.kind == "sea":
+        return _section(scene, outcome)
     if isinstance(scene, LevelTankScene | OrderedTankScene):
         found = tuple(section for section in outcome.sections if section.compares)
         return found or NOTHING_TO_COMPARE
@@ -41,13 +42,13 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
     return _roll(outcome.solution)
 
 
-def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
+def _section(scene: TankScene | SeaScene, outcome: Outcome) -> tuple[Section, ...] | str:
     """The run has computed the estimates."""
     found = tuple(section for section in outcome.sections if section.compares)
     if found:
         return found
     if scene.is_open:
-        return "There is no comparison with older theories: that of thin floats does not fit these bodies and analyses."
+        return "There is no comparison with older theories: those of floats do not fit these bodies and analyses."
     if TANK["exact"].records(outcome.solution):
         return "The modes have an exact solution; how far they are from it is said below their table."
     return (

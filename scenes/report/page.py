@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
+from hydroelastic.scenes.report.families import Family, family_of
 
 _NUMBER = re.compile(r"[+\-−–≥≤]?\s*(\d[\d.]*(e[+-]?\d+)?( ?[+\-−]\d[\d.]*(e[+-]?\d+)?i)?|inf)?( %)?")
 # Lines such as "UNSTABLE: …" are highlighted.
@@ -77,14 +78,19 @@ class ReportPage:
     parts: tuple[Part, ...]
 
 
+_KINDS: dict[Family, str] = {
+    "tank": "closed tank",
+    "level tank": "tank in three dimensions",
+    "open water": "open water",
+    "string": "hanging string",
+    "thread": "thread in a stream",
+    "roll": "rolling ship",
+}
+
+
 def kind_of(summary: Summary) -> str:
     """Return the kind of a scene in words."""
-    scene = summary["scene"]
-    if scene["kind"] == "tank":
-        return "open water" if scene["tank"]["ends"] == "open" else "closed tank"
-    return {"sea": "open water", "string": "hanging string", "thread": "thread in a stream", "roll": "rolling ship"}[
-        scene["kind"]
-    ]
+    return _KINDS[family_of(summary)]
 
 
 def is_numeric(cells: Iterable[str]) -> bool:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.models.tank_kinds import is_level_tank
+from hydroelastic.scenes.report.families import Family, family_of
 
 
 def resolved(summary: Summary) -> Section:
@@ -15,12 +15,7 @@ def resolved(summary: Summary) -> Section:
     Args:
         summary: content of ``summary.json``.
     """
-    scene = summary["scene"]
-    lines = {"tank": _tank, "sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
-    if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
-        lines = _open_water
-    elif is_level_tank(scene):
-        lines = _level_tank
+    lines = _LINES[family_of(summary)]
     return Section(title="How the answer was found", lines=tuple(lines(summary)))
 
 
@@ -93,3 +88,13 @@ def _roll(summary: Summary) -> Iterator[str]:
         yield "Integrated at two tolerances: their difference estimates the error."
     else:
         yield "The closed form is exact: its error is that of rounding, and of the field solution of a section if any."
+
+
+_LINES: dict[Family, Callable[[Summary], Iterator[str]]] = {
+    "tank": _tank,
+    "level tank": _level_tank,
+    "open water": _open_water,
+    "string": _string,
+    "thread": _thread,
+    "roll": _roll,
+}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydroelastic.output.open_water.bodies import bodies_at_rest_section
-from hydroelastic.output.sections import Section
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
@@ -39,5 +39,15 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         title="What is asked",
         lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.", what),
     )
+    yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     if scene.body:
         yield bodies_at_rest_section(physical_tank(scene))
+
+
+def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:
+    where = "in the half-plane (r, z)" if scene.is_revolved else "in the section"
+    yield "ψ", f"{where}, of each order", "an ideal liquid that starts from rest has a potential"
+    if scene.tank.top == "free":
+        yield "η", "on the still surface", "it keeps gravity waves"
+    for number, body in enumerate(scene.body, 1):
+        yield f"motions of float {number}", ", ".join(body.motions), "it is rigid"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes
 from hydroelastic.output.level_tank.tables import level_tank_cost, level_tank_sections
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.provenance import Summary
-from hydroelastic.scenes.level_tank.run import run_level_tank
+from hydroelastic.scenes.level_tank.run import beside_estimates, run_level_tank
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
 from hydroelastic.scenes.round_tank.solve import solve_round_scene
@@ -41,3 +43,8 @@ run_round_tank: StagedRun[OrderedTankScene, SolvedLevelTank] = StagedRun(
     draw=run_level_tank.draw,
     used_options=run_level_tank.used_options,
 )
+
+
+def compare_round_tank(scene: OrderedTankScene, *, report: Report = lambda _message: None) -> Outcome:
+    """See `compare_level_tank`."""
+    return beside_estimates(run_round_tank(scene, report=report))

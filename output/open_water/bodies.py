@@ -27,7 +27,7 @@ class BodyAtRest:
         mass: kg/m.
         draught: depth of its lowest point below the still level, m; of a beam or plate that of its mean weight, which
             is not modelled.
-        waterplane: x of both ends of its waterplane, m; of a round plate both radii.
+        waterplane: x of both ends of its waterplane, m; of a ring both radii.
         centre_of_gravity: x, and y above its still level, m.
         centre_of_buoyancy: the same of the part below the level, m.
         radius_of_gyration: about the centre of gravity, m.
@@ -78,7 +78,7 @@ def _round_plate(tank: Tank, index: int, plate: RoundPlate) -> BodyAtRest:
         kind="plate",
         mass=plate.mass_per_area * area,
         draught=plate.mass_per_area / jump,
-        waterplane=plate.waterplane,
+        waterplane=(inner or -outer, outer),
         heave_stiffness=weight * area,
         roll_stiffness=0.25 * weight * area * (inner**2 + outer**2),
     )

@@ -27,8 +27,9 @@ TABLE = ROOT.parent / "results" / "hard_cases" / "hard_cases.csv"
 LEAST_ESTIMATE = 1.0 / 3.0
 """Smallest estimate over true error. Measured: 1.04 for frequencies, 0.7 for one pressure-release tone."""
 REFERENCE_ROUNDING = 1e-12
-ROUNDING_AT_RANDOM = 1e-11
 """What the references leave open: they moved by 5e-13 at most when refined (test_reference_solutions.py)."""
+ROUNDING_AT_RANDOM = 1e-11
+"""Beside a plate of 10⁶ times the stiffness the lowest wave has 9e-12 of rounding, in the reference or here."""
 LARGE_ESTIMATE, LARGE_ESTIMATES = 30.0, 0.01
 """An estimate above this multiple of the true error is needlessly large; this part of them at the most may be.
 
@@ -166,7 +167,6 @@ def check_tank(scene: TankScene, reference: list[float], tones: list[dict[str, f
     errors = np.abs(found.errors(reference))
     if errors.max() > scene.accuracy.tolerance:
         return f"error {errors.max():.1e} above the tolerance {scene.accuracy.tolerance:.0e}"
-    # Beside a plate of 10⁶ times the stiffness the lowest wave has 9e-12 of rounding, in the reference or here.
     if np.any(found.estimates < LEAST_ESTIMATE * (errors - ROUNDING_AT_RANDOM)):
         worst = int(np.argmin(found.estimates / errors))
         return f"estimate {found.estimates[worst]:.1e} for an error of {errors[worst]:.1e}"

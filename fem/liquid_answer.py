@@ -16,8 +16,8 @@ class LiquidAnswer:
         potentials: A⁺C, shape (N, n).
         added_mass: M_a = (ρC)ᵀA⁺C, shape (n, n).
         root: R with RᵀK_ηR = 1, where K_η is the stiffness of the surfaces of the liquids, shape (surface unknowns,
-            surface unknowns); ``None`` where there are too many unknowns for LAPACK.
-        scaled: M_a with the unknowns of these surfaces scaled by R, shape (n, n); ``None`` without R.
+            surface unknowns).
+        scaled: M_a with the unknowns of these surfaces scaled by R, shape (n, n).
     """
 
     potentials: np.ndarray

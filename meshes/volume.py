@@ -34,11 +34,10 @@ from hydroelastic.meshes.volume_solids import (
     float_solid,
     kept,
     liquid_solid,
-    plan_middle,
 )
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name, body_number
-from hydroelastic.physics.level_tank import Cylinder, FilePlan
+from hydroelastic.physics.level_tank import Cylinder, FilePlan, middle_of
 from hydroelastic.physics.plate import Disc, Rectangle
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
@@ -234,7 +233,7 @@ def depth_over(tank: VolumeTank) -> Callable[[FloatArray], FloatArray]:
     """Return the depth of an upright tank at places of the plan (n, 2) → (n,)."""
     bed = tank.bed
     if isinstance(bed, SlopingBed):
-        slope, middle = np.array(bed.slope), np.array(plan_middle(tank))
+        slope, middle = np.array(bed.slope), np.array(middle_of(tank.plan))
         return lambda places: np.asarray(tank.depth - (places - middle) @ slope)
     if isinstance(bed, SurveyedBed):
         table = np.array(bed.points)

@@ -11,7 +11,7 @@ from hydroelastic.meshes.hull_file import hull_solid
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.volume_file import solid_of_file
-from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan
+from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, middle_of
 from hydroelastic.physics.obstacles import Baffle, VerticalBaffle
 from hydroelastic.physics.plate import Disc, Outline, Rectangle, Strip
 from hydroelastic.physics.solid_floats import SolidFloat
@@ -22,19 +22,6 @@ Entities = list[tuple[int, int]]
 
 # Part of the volume that counts as nothing.
 _NOTHING = 1e-9
-
-
-def plan_middle(tank: VolumeTank) -> tuple[float, float]:
-    """Return the middle of the box around the plan."""
-    plan = tank.plan
-    if isinstance(plan, Box):
-        return 0.5 * plan.length, 0.5 * plan.width
-    if isinstance(plan, Cylinder):
-        return 0.0, 0.0
-    if isinstance(plan, FilePlan):
-        return plan.middle
-    x, y = zip(*plan.points, strict=True)
-    return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))
 
 
 def liquid_solid(tank: VolumeTank) -> Entities:
@@ -68,7 +55,7 @@ def _upright(tank: VolumeTank) -> Entities:
     else:
         solid = _prism(face(plan), low)
     if isinstance(tank.bed, SlopingBed):
-        (along, across), (x, y) = tank.bed.slope, plan_middle(tank)
+        (along, across), (x, y) = tank.bed.slope, middle_of(tank.plan)
         below = [(3, occ.addBox(-reach, -reach, -3.0 * reach, 2.0 * reach, 2.0 * reach, 3.0 * reach))]
         steepness = hypot(along, across)
         if steepness:
@@ -84,7 +71,7 @@ def _prism(faces: Entities, depth: float) -> Entities:
 
 def below(tank: VolumeTank, level: float) -> Entities:
     """A box around all of the tank below a level."""
-    reach, (x, y) = _reach(tank), plan_middle(tank)
+    reach, (x, y) = _reach(tank), middle_of(tank.plan)
     low = 3.0 * reach
     return [(3, gmsh.model.occ.addBox(x - reach, y - reach, -low, 2.0 * reach, 2.0 * reach, low + level))]
 

@@ -165,3 +165,15 @@ class LevelTank:
             gravity=1.0,
             plates=tuple(plate.scaled(units) for plate in self.plates),
         )
+
+
+def middle_of(plan: Plan) -> Point:
+    """Return the middle of a plan: of a box, the axis of a cylinder, of the box around a polygon."""
+    if isinstance(plan, Box):
+        return 0.5 * plan.length, 0.5 * plan.width
+    if isinstance(plan, Cylinder):
+        return 0.0, 0.0
+    if isinstance(plan, FilePlan):
+        return plan.middle
+    x, y = zip(*plan.points, strict=True)
+    return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))

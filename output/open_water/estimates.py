@@ -12,19 +12,17 @@ def _poles(key: str, meaning: str, unit: str) -> Quantity:
 
 # fmt: off
 # A table: as many arguments on a line as fit.
-THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
-    Quantity("quantity", "quantity"),
-    Quantity("theory", "by the theory"),
-    Quantity("field", "by the field solution"),
-    Quantity("difference", "relative difference of the theory from the field solution", "1"),
-), dimension="thin_float_row", prefix="thin_float")
+def _rows(theory: str, prefix: str) -> Group:
+    return Group("rows", f"values by the {theory} and by the field solution", (
+        Quantity("quantity", "quantity"),
+        Quantity("theory", "by the theory"),
+        Quantity("field", "by the field solution"),
+        Quantity("difference", "relative difference of the theory from the field solution", "1"),
+    ), dimension=f"{prefix}_row", prefix=prefix)
 
-ROUND_BODY_ROWS = Group("rows", "values by the theory and by the field solution", (
-    Quantity("quantity", "quantity"),
-    Quantity("theory", "by the theory"),
-    Quantity("field", "by the field solution"),
-    Quantity("difference", "relative difference of the theory from the field solution", "1"),
-), dimension="round_body_row", prefix="round_body")
+
+THIN_FLOAT_ROWS = _rows("thin-float theory", "thin_float")
+ROUND_BODY_ROWS = _rows("theory", "round_body")
 
 ESTIMATES = Group("estimates", "older theories beside the field solution", (
     Group("thin_float", "the thin-float theory", (

@@ -10,13 +10,12 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.level_tank import Box, Cylinder, Plan
+from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
-    middle_of,
     physical_outline,
     physical_plan,
     shape_file,

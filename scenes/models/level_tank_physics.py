@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from pathlib import Path
 
-from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank, Plan, PolygonPlan
-from hydroelastic.physics.plate import Disc, Outline, Plate, Point, Polygon, Rectangle, Strip
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, Plan, PolygonPlan, middle_of
+from hydroelastic.physics.plate import Disc, Outline, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.volume_tank import Bed, LowerLiquid, SlopingBed, SurveyedBed, VolumeTank
 from hydroelastic.scenes.models import level_tank_parts as parts
 
@@ -103,18 +103,6 @@ def physical_plan(scene: parts.LevelTankParts) -> Plan:
     assert tank.length is not None
     assert tank.width is not None
     return Box(length=tank.length, width=tank.width)
-
-
-def middle_of(plan: Plan) -> Point:
-    """Return the middle of a plan: of a box, the axis of a cylinder, of the box around a polygon."""
-    if isinstance(plan, Box):
-        return 0.5 * plan.length, 0.5 * plan.width
-    if isinstance(plan, Cylinder):
-        return 0.0, 0.0
-    if isinstance(plan, FilePlan):
-        return plan.middle
-    x, y = zip(*plan.points, strict=True)
-    return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))
 
 
 def physical_outline(scene: parts.LevelTankParts, plate: parts.PlanBody) -> Outline:

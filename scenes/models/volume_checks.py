@@ -10,11 +10,11 @@ from typing import TypeAlias
 import numpy as np
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.level_tank import Box, Cylinder, Plan
+from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
 from hydroelastic.physics.plate import Disc, Point, Rectangle
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.scenes.models.level_tank_parts import LevelTankParts
-from hydroelastic.scenes.models.level_tank_physics import middle_of, needs_volume, physical_plan
+from hydroelastic.scenes.models.level_tank_physics import needs_volume, physical_plan
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.volume_floats import UnfloatableError, VolumeFloat
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from math import inf
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.problems import problem_at
-from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
+from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP, touching
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 _OF_OTHERS = ("spectrum", "impulse_response", "motion")
@@ -18,16 +16,13 @@ _OF_OTHERS = ("spectrum", "impulse_response", "motion")
 
 def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield plates at one level that overlap or touch."""
-    for level in ("interface", "surface"):
-        plates = [(index, plate) for index, plate in scene.plates if scene.level_of(plate) == level]
-        for (first, inner), (second, outer) in pairwise(sorted(plates, key=lambda numbered: numbered[1].start)):
-            if outer.start - inner.end <= ROUND_OFF * scene.tank.length:
-                yield problem_at(
-                    ("body", second, "inner_radius"),
-                    outer.start,
-                    f"the plate overlaps or touches [[body]] number {first + 1}, whose radius is {inner.end:g} m",
-                    remedy="Leave a gap between them",
-                )
+    for first, inner, second, outer in touching(scene, scene.plates):
+        yield problem_at(
+            ("body", second, "inner_radius"),
+            outer.start,
+            f"the plate overlaps or touches [[body]] number {first + 1}, whose radius is {inner.end:g} m",
+            remedy="Leave a gap between them",
+        )
 
 
 def analyses_take_round_plates(scene: TankParts) -> Iterator[InitErrorDetails]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import accumulate, pairwise
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from pydantic_core import InitErrorDetails
 
@@ -22,8 +22,12 @@ from hydroelastic.scenes.models.open_checks import (
     resonance_regions_are_covered_by_theory,
 )
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_checks import sea_points_lie_on_bodies
 from hydroelastic.scenes.models.tank_parts import TankParts
+
+Spanning = TypeVar("Spanning", bound=AnyBeam | SeaPlate)
+"""A body with a start and an end along the surface."""
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)
 """Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
@@ -164,17 +168,24 @@ def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _beams_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
+    for first, left, second, right in touching(scene, scene.beams):
+        yield problem_at(
+            ("body", second, "start"),
+            right.start,
+            f"the beam overlaps or touches [[body]] number {first + 1}, which ends at {left.end:g} m",
+            remedy="Leave a gap between them",
+        )
+
+
+def touching(
+    scene: TankParts, bodies: tuple[tuple[int, Spanning], ...]
+) -> Iterator[tuple[int, Spanning, int, Spanning]]:
+    """Yield neighbours at one level that overlap or touch, each with its number, that of smaller start first."""
     for level in ("interface", "surface"):
-        beams = [(index, beam) for index, beam in scene.beams if scene.level_of(beam) == level]
-        ordered = sorted(beams, key=lambda numbered: numbered[1].start)
-        for (first, left), (second, right) in pairwise(ordered):
+        there = [(index, body) for index, body in bodies if scene.level_of(body) == level]
+        for (first, left), (second, right) in pairwise(sorted(there, key=lambda numbered: numbered[1].start)):
             if right.start - left.end <= ROUND_OFF * scene.tank.length:
-                yield problem_at(
-                    ("body", second, "start"),
-                    right.start,
-                    f"the beam overlaps or touches [[body]] number {first + 1}, which ends at {left.end:g} m",
-                    remedy="Leave a gap between them",
-                )
+                yield first, left, second, right
 
 
 def _beams_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:

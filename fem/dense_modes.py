@@ -5,7 +5,8 @@ T = Uᵀ(M + M_a)U and the volumes V of the constraints, the modes are those of
 
     y = λ (T y + Vᵀp),    V y = 0        p: constants of ψ, times ρ
 
-in which the motions without stiffness, and the constants with them, are condensed as by `CondensedKinetics`.
+in which the motions without stiffness, and the constants with them, are condensed as by `CondensedKinetics`. Where many
+bodies share the answer, the surfaces may be projected on a basis E, which solves EᵀTE; residuals are those of T.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 
 from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import Projection
 
 FEW = 150
 """Measured: up to so many unknowns LAPACK finds all eigenvalues sooner than other methods some of them."""
@@ -29,13 +31,13 @@ class CompletedModes:
 
     Attributes:
         displacements: ζ, shape (n, modes).
-        potentials: ψ, its constants included, shape (N, modes).
+        pressures: constants of ψ, times ρ, shape (constraints, modes).
         residuals: relative residuals in the norm of K⁻¹, shape (modes,).
         energies: shares in the potential energy: body unknowns one by one, then each surface, shape (shares, modes).
     """
 
     displacements: np.ndarray
-    potentials: np.ndarray
+    pressures: np.ndarray
     residuals: np.ndarray
     energies: np.ndarray
 
@@ -43,22 +45,42 @@ class CompletedModes:
 class DenseModes:
     """The problem of a stable pencil with a scaled answer, on one process."""
 
-    def __init__(self, pencil: CoupledPencil, answer: LiquidAnswer) -> None:
-        """Scale the unknowns."""
-        self._pencil, self._answer, self._root = pencil, answer, answer.root
+    def __init__(self, pencil: CoupledPencil, answer: LiquidAnswer, projection: Projection | None = None) -> None:
+        """Scale the unknowns, and project the surfaces if a projection is given."""
+        self._pencil, self._answer, self._projection = pencil, answer, projection
         bodies = pencil.body_size
         self._free = pencil.free_rigid
         stiffness = pencil.body_stiffness
         self._scale = np.where(stiffness > 0.0, stiffness, 1.0) ** -0.5
-        self.kinetics = answer.scaled.copy()
-        first = 0
-        for body in pencil.bodies:
-            self.kinetics[first : first + body.size, first : first + body.size] += body.mass
-            first += body.size
-        self.kinetics[:bodies] *= self._scale[:, None]
-        self.kinetics[:, :bodies] *= self._scale
+        self._columns = self._with_bodies(answer.scaled if projection is None else projection.columns)
+        self.kinetics = self._columns if projection is None else self._with_bodies(projection.kinetics)
         volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
-        self.volumes = np.hstack([volumes[:, :bodies] * self._scale, volumes[:, bodies:] @ self._root])
+        self._volumes = np.hstack([volumes[:, :bodies] * self._scale, volumes[:, bodies:] @ answer.root])
+        self.volumes = self._volumes
+        if projection is not None:
+            self.volumes = np.hstack([self._volumes[:, :bodies], self._volumes[:, bodies:] @ projection.basis])
+
+    def _with_bodies(self, added_mass: np.ndarray) -> np.ndarray:
+        """M + M_a with the unknowns of the bodies scaled."""
+        kinetics, bodies, first = added_mass.copy(), self._pencil.body_size, 0
+        for body in self._pencil.bodies:
+            kinetics[first : first + body.size, first : first + body.size] += body.mass
+            first += body.size
+        kinetics[:bodies] *= self._scale[:, None]
+        kinetics[:, :bodies] *= self._scale
+        return kinetics
+
+    def _whole(self, vectors: np.ndarray) -> np.ndarray:
+        """E times vectors."""
+        if self._projection is None:
+            return vectors
+        bodies = self._pencil.body_size
+        return np.concatenate([vectors[:bodies], self._projection.basis @ vectors[bodies:]])
+
+    @property
+    def is_projected(self) -> bool:
+        """Whether the surfaces are projected on a basis."""
+        return self._projection is not None
 
     @cached_property
     def _condensed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -92,11 +114,11 @@ class DenseModes:
 
     def displacements(self, vectors: np.ndarray) -> np.ndarray:
         """Return ζ of vectors y."""
-        bodies = self._pencil.body_size
-        return np.concatenate([self._scale[:, None] * vectors[:bodies], self._root @ vectors[bodies:]])
+        bodies, whole = self._pencil.body_size, self._whole(vectors)
+        return np.concatenate([self._scale[:, None] * whole[:bodies], self._answer.root @ whole[bodies:]])
 
     def completed(self, eigenvalues: np.ndarray, vectors: np.ndarray) -> CompletedModes:
-        """Complete eigenpairs by rigid motions and ψ, and compute their residuals.
+        """Complete eigenpairs by rigid motions and constants of ψ, and compute their residuals.
 
         Args:
             eigenvalues: λ, shape (modes,).
@@ -115,18 +137,24 @@ class DenseModes:
         turn, _ = pencil.rigid_constraints
         pressures = turn @ np.concatenate([followed[rigid:], held])
         displacements = self.displacements(whole)
-        potentials = self._answer.potentials @ displacements
-        layer_of = pencil.liquid.owned_layer_of
-        for constraint, pressure in zip(pencil.constraints, pressures, strict=True):
-            potentials[layer_of == constraint.layer] += pressure / constraint.density
+        forces = self._whole(forces)
+        residuals = forces - eigenvalues * (self._columns @ whole + self._volumes.T @ pressures)
         energies = forces**2 / eigenvalues
         stops = np.cumsum([pencil.body_size, *pencil.surface_sizes])
         return CompletedModes(
             displacements=displacements,
-            potentials=potentials,
-            residuals=np.linalg.norm(forces - eigenvalues * (momenta + self.volumes.T @ pressures), axis=0)
-            / np.sqrt(eigenvalues),
+            pressures=pressures,
+            residuals=np.linalg.norm(residuals, axis=0) / np.sqrt(eigenvalues),
             energies=np.vstack(
                 [energies[: pencil.body_size], *(energies[one:two].sum(axis=0) for one, two in pairwise(stops))]
             ),
         )
+
+    def potentials(self, modes: CompletedModes, some: slice) -> np.ndarray:
+        """Return ψ of some modes, its constants included, shape (N, modes)."""
+        pencil = self._pencil
+        potentials: np.ndarray = self._answer.potentials @ modes.displacements[:, some]
+        layer_of = pencil.liquid.owned_layer_of
+        for constraint, pressure in zip(pencil.constraints, modes.pressures[:, some], strict=True):
+            potentials[layer_of == constraint.layer] += pressure / constraint.density
+        return potentials

@@ -10,6 +10,7 @@ from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import SharedAnswer
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
@@ -80,6 +81,10 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     """As `count_below`, by Sylvester's law from K − σ(M + M_a) bordered by the volume constraints; ``None`` where σ is
     an eigenvalue to working precision."""
     volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
+    if isinstance(answer, SharedAnswer):
+        count = _shared_count(pencil, answer, eigenvalue, volumes)
+        if count is not None:
+            return count
     stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + answer.added_mass)
     # Scaled so that stiff shapes and small elements weigh alike.
     scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
@@ -89,6 +94,30 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     block = scale[:, None] * (stiffness - inertia) * scale
     negative = _negative(np.block([[block, volumes.T], [volumes, corner]]))
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
+
+
+def _shared_count(
+    pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray
+) -> int | None:
+    """The same with the surfaces eliminated in their gravity modes; ``None`` where σ is close to one of these."""
+    bodies = answer.bodies
+    found = answer.eliminated(eigenvalue, volumes[:, bodies:] @ answer.root)
+    if found is None:
+        return None
+    negative, follow = found
+    rows = np.arange(bodies)
+    left = -follow
+    left[:bodies, :bodies] -= eigenvalue * answer.added_mass[:bodies, :bodies]
+    first = 0
+    for body in pencil.bodies:
+        left[first : first + body.size, first : first + body.size] -= eigenvalue * body.mass
+        first += body.size
+    left[rows, rows] += pencil.body_stiffness
+    left[bodies:, :bodies] += volumes[:, :bodies]
+    left[:bodies, bodies:] += volumes[:, :bodies].T
+    scale = 1.0 / np.sqrt(np.abs(np.diag(left)))
+    below = _negative(scale[:, None] * left * scale)
+    return None if below is None else negative + below - len(pencil.constraints) - pencil.zero_mode_count
 
 
 def _negative(matrix: np.ndarray) -> int | None:

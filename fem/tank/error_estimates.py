@@ -12,6 +12,8 @@ from petsc4py import PETSc
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import EigenSolverError, Mode
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.field_solution import FieldSolution
 from hydroelastic.fem.tank.mesh import tip_points
@@ -92,10 +94,13 @@ def frequency_errors(
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     for number, part in enumerate(solution.parts):
         own = [place for place, owner in enumerate(parts) if owner == number]
-        potentials = [modes[place].potential for place in own]
+        cells = _cell_errors(part.pencil, [modes[place] for place in own])
         liquid[own], tips[own] = energies_missed(
-            part.pencil.liquid, potentials, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency
+            part.pencil.liquid, cells, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency
         )
+        projection = part.modes.projection
+        if projection is not None:
+            liquid[own] += projection.max(initial=0.0)
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
@@ -110,16 +115,23 @@ def frequency_errors(
     )
 
 
+def _cell_errors(pencil: CoupledPencil, modes: list[Mode]) -> np.ndarray:
+    """See `cell_errors` (collective)."""
+    if modes and isinstance(pencil.answer, SharedAnswer) and pencil.answer.cell_errors is not None:
+        return pencil.answer.cell_errors(np.column_stack([mode.displacement.array_r for mode in modes]))
+    return cell_errors(pencil.liquid, [mode.potential for mode in modes])
+
+
 def energies_missed(
     liquid: LiquidSpace,
-    potentials: list[PETSc.Vec],
+    cells: np.ndarray,
     tank: Tank,
     resolution: Resolution,
     *,
     half: bool,
     infinite_frequency: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials away from tips and at tips, each of shape (potentials,)
+    """Sum the energy error ∫ρ|∇(ψ − ψ_h)|² of `cell_errors` away from tips and at tips, each of shape (potentials,)
     (collective).
 
     Raises:
@@ -130,7 +142,6 @@ def energies_missed(
     corners = np.empty((0, 2))
     if resolution.tip_size is not None:
         corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
-    cells = cell_errors(liquid, potentials)
     at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
     whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
     if not np.all(np.isfinite(whole)):
@@ -158,7 +169,9 @@ def added_mass_errors(
         resolution: resolution of the mesh.
         half: whether the mesh is that of the left half of the tank.
     """
-    away, tips = energies_missed(liquid, potentials, tank, resolution, half=half, infinite_frequency=True)
+    away, tips = energies_missed(
+        liquid, cell_errors(liquid, potentials), tank, resolution, half=half, infinite_frequency=True
+    )
     return FrequencyErrors(
         liquid=away / added_mass + boundary_error(liquid.tank, tank),
         tips=tips / added_mass,

@@ -12,8 +12,11 @@ from dataclasses import dataclass, field, replace
 
 from mpi4py import MPI
 
+from hydroelastic.fem.cells import is_straight
 from hydroelastic.fem.liquid_pencil import answered
-from hydroelastic.fem.pencil import with_bodies
+from hydroelastic.fem.pencil import CoupledPencil, with_bodies
+from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, part_models
@@ -102,16 +105,18 @@ class SharedLiquids(Liquids):
         key = (id(mesh), degree, shapes, half, infinite_frequency)
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
-            self._pencils[key] = {
-                parity: replace(
-                    pencil,
-                    answer=pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
-                )
-                for parity, pencil in made.items()
-            }
+            self._pencils[key] = {parity: _shared(pencil) for parity, pencil in made.items()}
         return {
             parity: with_bodies(pencil, _bodies(tank, shapes, parity)) for parity, pencil in self._pencils[key].items()
         }
+
+
+def _shared(pencil: CoupledPencil) -> CoupledPencil:
+    answer = pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0])))
+    if answer is None:
+        return pencil
+    errors = SharedErrors(pencil.liquid, answer).cells if is_straight(pencil.liquid.tank.mesh) else None
+    return replace(pencil, answer=SharedAnswer(**vars(answer), bodies=pencil.body_size, cell_errors=errors))
 
 
 def _bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity | None) -> tuple[Body, ...]:

@@ -25,7 +25,7 @@ from hydroelastic.fem.liquid_answer import LiquidAnswer
 
 # Gravity modes that are kept for each mode asked for; those of long waves have λ in proportion to their number. Their
 # number is rounded up, so that few bases are made.
-_KEPT, _STEP = 2, 8
+_KEPT, _STEP = 1.5, 16
 # Terms of the motion of the others, and least singular value relative to the largest.
 _TERMS, _SMALLEST = 4, 1e-8
 # Closer to a gravity mode the elimination of the surfaces loses digits.

@@ -15,7 +15,7 @@ from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.spectral_error import missing_energy, straight_coefficients
 
 # Largest kinetic energy beside the known directions, at unit generalized mass: an estimate ε changes by 2√(ε times it).
-_UNKNOWN = 1e-16
+_UNKNOWN = 1e-14
 
 
 class SharedErrors:

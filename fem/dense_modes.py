@@ -27,19 +27,21 @@ FEW = 150
 
 @dataclass(frozen=True, kw_only=True)
 class CompletedModes:
-    """Modes with their shapes, at unit generalized mass; the last dimension of each array is that of the modes.
+    """Modes with their condensed unknowns, at unit generalized mass; the last dimension is that of the modes.
 
     Attributes:
-        displacements: ζ, shape (n, modes).
+        eigenvalues: λ, shape (modes,).
+        forces: y without the condensed unknowns, shape (unknowns, modes).
+        motions: y with the motions without stiffness, shape (unknowns, modes).
         pressures: constants of ψ, times ρ, shape (constraints, modes).
         residuals: relative residuals in the norm of K⁻¹, shape (modes,).
-        energies: shares in the potential energy: body unknowns one by one, then each surface, shape (shares, modes).
     """
 
-    displacements: np.ndarray
+    eigenvalues: np.ndarray
+    forces: np.ndarray
+    motions: np.ndarray
     pressures: np.ndarray
     residuals: np.ndarray
-    energies: np.ndarray
 
 
 class DenseModes:
@@ -52,13 +54,17 @@ class DenseModes:
         self._free = pencil.free_rigid
         stiffness = pencil.body_stiffness
         self._scale = np.where(stiffness > 0.0, stiffness, 1.0) ** -0.5
-        self._columns = self._with_bodies(answer.scaled if projection is None else projection.columns)
-        self.kinetics = self._columns if projection is None else self._with_bodies(projection.kinetics)
         volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
-        self._volumes = np.hstack([volumes[:, :bodies] * self._scale, volumes[:, bodies:] @ answer.root])
-        self.volumes = self._volumes
-        if projection is not None:
-            self.volumes = np.hstack([self._volumes[:, :bodies], self._volumes[:, bodies:] @ projection.basis])
+        of_bodies = volumes[:, :bodies] * self._scale
+        if projection is None:
+            self._columns = self.kinetics = self._with_bodies(answer.scaled)
+            self._root = answer.root
+            self._volumes = self.volumes = np.hstack([of_bodies, volumes[:, bodies:] @ answer.root])
+        else:
+            self._columns, self.kinetics = map(self._with_bodies, (projection.columns, projection.kinetics))
+            self._root = projection.root
+            self._volumes = np.hstack([of_bodies, projection.volumes])
+            self.volumes = np.hstack([of_bodies, projection.volumes @ projection.basis])
 
     def _with_bodies(self, added_mass: np.ndarray) -> np.ndarray:
         """M + M_a with the unknowns of the bodies scaled."""
@@ -112,10 +118,10 @@ class DenseModes:
             operator -= part @ basis.T + basis @ part.T
         return operator
 
-    def displacements(self, vectors: np.ndarray) -> np.ndarray:
-        """Return ζ of vectors y."""
-        bodies, whole = self._pencil.body_size, self._whole(vectors)
-        return np.concatenate([self._scale[:, None] * whole[:bodies], self._answer.root @ whole[bodies:]])
+    def amplitudes(self, modes: CompletedModes) -> np.ndarray:
+        """Return the body part of ζ without the motions without stiffness, shape (modes, body unknowns)."""
+        found: np.ndarray = (self._scale[:, None] * modes.forces[: self._pencil.body_size]).T
+        return found
 
     def completed(self, eigenvalues: np.ndarray, vectors: np.ndarray) -> CompletedModes:
         """Complete eigenpairs by rigid motions and constants of ψ, and compute their residuals.
@@ -124,36 +130,45 @@ class DenseModes:
             eigenvalues: λ, shape (modes,).
             vectors: eigenvectors of `operator` as columns, of any size, shape (n, modes).
         """
-        pencil, rigid = self._pencil, len(self._free)
+        rigid = len(self._free)
         follow, block, basis, triangle = self._condensed
         forces = vectors * np.sqrt(eigenvalues) / np.linalg.norm(vectors, axis=0)
         followed = -np.linalg.solve(block, follow @ forces) if len(follow) else np.empty((0, len(eigenvalues)))
-        whole = forces.copy()
-        whole[self._free] = followed[:rigid]
-        momenta = self.kinetics @ whole
-        moving = momenta.copy()
+        motions = forces.copy()
+        motions[self._free] = followed[:rigid]
+        moving = self.kinetics @ motions
         moving[self._free] = 0.0
         held = -np.linalg.solve(triangle, basis.T @ moving)
-        turn, _ = pencil.rigid_constraints
+        turn, _ = self._pencil.rigid_constraints
         pressures = turn @ np.concatenate([followed[rigid:], held])
-        displacements = self.displacements(whole)
-        forces = self._whole(forces)
-        residuals = forces - eigenvalues * (self._columns @ whole + self._volumes.T @ pressures)
-        energies = forces**2 / eigenvalues
-        stops = np.cumsum([pencil.body_size, *pencil.surface_sizes])
+        residuals = self._whole(forces) - eigenvalues * (self._columns @ motions + self._volumes.T @ pressures)
         return CompletedModes(
-            displacements=displacements,
+            eigenvalues=eigenvalues,
+            forces=forces,
+            motions=motions,
             pressures=pressures,
             residuals=np.linalg.norm(residuals, axis=0) / np.sqrt(eigenvalues),
-            energies=np.vstack(
-                [energies[: pencil.body_size], *(energies[one:two].sum(axis=0) for one, two in pairwise(stops))]
-            ),
+        )
+
+    def displacements(self, modes: CompletedModes, some: slice) -> np.ndarray:
+        """Return ζ of some modes, shape (n, modes)."""
+        bodies, motions = self._pencil.body_size, modes.motions[:, some]
+        return np.concatenate([self._scale[:, None] * motions[:bodies], self._root @ motions[bodies:]])
+
+    def energies(self, modes: CompletedModes, some: slice) -> np.ndarray:
+        """Return the shares of some modes in the potential energy: body unknowns one by one, then each surface, shape
+        (shares, modes)."""
+        pencil = self._pencil
+        energies = self._whole(modes.forces[:, some]) ** 2 / modes.eigenvalues[some]
+        stops = np.cumsum([pencil.body_size, *pencil.surface_sizes])
+        return np.vstack(
+            [energies[: pencil.body_size], *(energies[one:two].sum(axis=0) for one, two in pairwise(stops))]
         )
 
     def potentials(self, modes: CompletedModes, some: slice) -> np.ndarray:
         """Return ψ of some modes, its constants included, shape (N, modes)."""
         pencil = self._pencil
-        potentials: np.ndarray = self._answer.potentials @ modes.displacements[:, some]
+        potentials: np.ndarray = self._answer.potentials @ self.displacements(modes, some)
         layer_of = pencil.liquid.owned_layer_of
         for constraint, pressure in zip(pencil.constraints, modes.pressures[:, some], strict=True):
             potentials[layer_of == constraint.layer] += pressure / constraint.density

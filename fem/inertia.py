@@ -100,19 +100,15 @@ def _shared_count(
     pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray
 ) -> int | None:
     """The same with the surfaces eliminated in their gravity modes; ``None`` where σ is close to one of these."""
-    bodies = answer.bodies
-    found = answer.eliminated(eigenvalue, volumes[:, bodies:] @ answer.root)
+    found, bodies = answer.eliminated(eigenvalue), answer.bodies
     if found is None:
         return None
-    negative, follow = found
-    rows = np.arange(bodies)
-    left = -follow
-    left[:bodies, :bodies] -= eigenvalue * answer.added_mass[:bodies, :bodies]
+    negative, left = found
     first = 0
     for body in pencil.bodies:
         left[first : first + body.size, first : first + body.size] -= eigenvalue * body.mass
         first += body.size
-    left[rows, rows] += pencil.body_stiffness
+    left[np.diag_indices(bodies)] += pencil.body_stiffness
     left[bodies:, :bodies] += volumes[:, :bodies]
     left[:bodies, bodies:] += volumes[:, :bodies].T
     scale = 1.0 / np.sqrt(np.abs(np.diag(left)))

@@ -204,30 +204,37 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
     found = dense.completed(eigenvalues, vectors)
 
     @cache
+    def shaped(first: int) -> tuple[np.ndarray, np.ndarray]:
+        some = slice(first, first + _AT_ONCE)
+        return dense.displacements(found, some), dense.energies(found, some)
+
+    @cache
     def potentials(first: int) -> np.ndarray:
         return dense.potentials(found, slice(first, first + _AT_ONCE))
 
     def completed(number: int) -> Mode:
-        def shaped() -> PETSc.Vec:
-            place = number % _AT_ONCE
-            potential = pencil.coupling.createVecLeft()
-            potential.array[:] = potentials(number - place)[:, place]
-            return potential
+        place = number % _AT_ONCE
+        displacements, energies = shaped(number - place)
+
+        def potential() -> PETSc.Vec:
+            vector = pencil.coupling.createVecLeft()
+            vector.array[:] = potentials(number - place)[:, place]
+            return vector
 
         displacement = pencil.coupling.createVecRight()
-        displacement.array[:] = found.displacements[:, number]
+        displacement.array[:] = displacements[:, place]
         return Mode(
             eigenvalue=float(eigenvalues[number]),
             displacement=displacement,
-            shaped=cache(shaped),
+            shaped=cache(potential),
             residual=float(found.residuals[number]),
-            body_amplitudes=found.displacements[: pencil.body_size, number],
-            energy=found.energies[:, number],
+            body_amplitudes=displacements[: pencil.body_size, place],
+            energy=energies[:, place],
         )
 
     return ModeSet(
         eigenvalues=eigenvalues,
-        elastic_amplitudes=dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T,
+        elastic_amplitudes=dense.amplitudes(found),
         modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
         completed=completed,
         zero_modes=pencil.zero_mode_count,

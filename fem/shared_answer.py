@@ -38,11 +38,15 @@ class Projection:
 
     Attributes:
         basis: scaled unknowns of the surfaces in the basis, orthonormal columns, shape (surface unknowns, vectors).
+        root: R times the basis: unknowns of the surfaces in it.
+        volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
         columns: scaled M_a times bodies and basis, shape (n, bodies + vectors).
         kinetics: scaled M_a projected on them, shape (bodies + vectors, bodies + vectors).
     """
 
     basis: np.ndarray
+    root: np.ndarray
+    volumes: np.ndarray
     columns: np.ndarray
     kinetics: np.ndarray
 
@@ -53,25 +57,27 @@ class SharedAnswer(LiquidAnswer):
 
     Attributes:
         bodies: number of the first unknowns, which belong to bodies.
+        volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
         cell_errors: error estimates of modes in each cell, from ζ; ``None`` where cells are curved.
     """
 
     bodies: int
+    volumes: np.ndarray
     cell_errors: Callable[[np.ndarray], np.ndarray] | None
     _projections: dict[int, Projection] = field(default_factory=dict)
 
     @cached_property
-    def _gravity(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Δ descending, the scaled gravity modes as columns, and C."""
+    def _gravity(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Δ descending, the scaled gravity modes as columns, C, and the volumes of these modes."""
         inverses, modes = np.linalg.eigh(self.scaled[self.bodies :, self.bodies :])
         modes = modes[:, ::-1]
-        return inverses[::-1], modes, modes.T @ self.scaled[self.bodies :, : self.bodies]
+        return inverses[::-1], modes, modes.T @ self.scaled[self.bodies :, : self.bodies], self.volumes @ modes
 
     def projection(self, count: int) -> Projection:
         """Return a basis for a number of the lowest modes."""
         kept = _STEP * ceil(_KEPT * count / _STEP)
         if kept not in self._projections:
-            inverses, modes, loads = self._gravity
+            inverses, modes, loads, _ = self._gravity
             ratios = inverses[kept:, None] / inverses[min(kept, len(inverses) - 1)]
             terms = np.hstack([loads[kept:] * ratios**power for power in range(_TERMS)])
             left, sizes, _ = np.linalg.svd(terms, full_matrices=False)
@@ -80,23 +86,26 @@ class SharedAnswer(LiquidAnswer):
             surfaces = self.scaled[:, self.bodies :] @ basis
             columns = np.hstack([self.scaled[:, : self.bodies], surfaces])
             kinetics = np.vstack([columns[: self.bodies], basis.T @ columns[self.bodies :]])
-            self._projections[kept] = Projection(basis=basis, columns=columns, kinetics=kinetics)
+            self._projections[kept] = Projection(
+                basis=basis, root=self.root @ basis, volumes=self.volumes, columns=columns, kinetics=kinetics
+            )
         return self._projections[kept]
 
-    def eliminated(self, eigenvalue: float, borders: np.ndarray) -> tuple[int, np.ndarray] | None:
-        """Eliminate the surfaces from [[K − σ(M + B), ·], [·, K_η − σM_a]], bordered by further rows.
+    def eliminated(self, eigenvalue: float) -> tuple[int, np.ndarray] | None:
+        """Eliminate the surfaces from K − σ(M + M_a), bordered by the constraints.
 
         Args:
             eigenvalue: σ.
-            borders: scaled surface unknowns of these rows, shape (rows, surface unknowns).
 
         Returns:
-            The negative pivots of the surfaces, and what they leave in the bodies and the borders, shape (bodies + rows,
-            bodies + rows), to be subtracted; ``None`` close to a gravity mode.
+            The number of negative pivots, and what is left of the bodies, without K − σM, and the constraints, shape
+            (bodies + constraints, bodies + constraints); ``None`` close to a gravity mode.
         """
-        inverses, modes, loads = self._gravity
+        inverses, _, loads, volumes = self._gravity
         pivots = 1.0 - eigenvalue * inverses
         if np.abs(pivots).min(initial=np.inf) < _RESONANT:
             return None
-        rows = np.vstack([-eigenvalue * loads.T, borders @ modes])
-        return int(np.count_nonzero(pivots < 0.0)), (rows / pivots) @ rows.T
+        rows = np.vstack([-eigenvalue * loads.T, volumes])
+        left = -(rows / pivots) @ rows.T
+        left[: self.bodies, : self.bodies] -= eigenvalue * self.added_mass[: self.bodies, : self.bodies]
+        return int(np.count_nonzero(pivots < 0.0)), left

@@ -28,7 +28,9 @@ class SharedErrors:
         self._densities = liquid.energy_densities()
         self._directions = np.empty((len(answer.added_mass), 0))
         self._momenta = self._directions
-        self._tables: list[np.ndarray] = []
+        # Coefficients of one degree after the other, and of one cell after the other; the directions come first.
+        self._table = np.empty((0, 0))
+        self._sizes: list[int] = []
 
     def cells(self, displacements: np.ndarray) -> np.ndarray:
         """Return what `cell_errors` does, shape (modes, cells).
@@ -39,10 +41,8 @@ class SharedErrors:
         for displacement in displacements.T[self._beside(displacements) > _UNKNOWN]:
             self._add(displacement)
         parts = self._momenta.T @ displacements
-        energies = []
-        for table in self._tables:
-            coefficients = (table.reshape(-1, table.shape[2]) @ parts).reshape(*table.shape[:2], -1)
-            energies.append(np.square(coefficients, out=coefficients).sum(axis=1).T)
+        squares = np.square(parts.T @ self._table).reshape(displacements.shape[1], sum(self._sizes), -1)
+        energies = [part.sum(axis=1) for part in np.split(squares, np.cumsum(self._sizes)[:-1], axis=1)]
         errors: np.ndarray = self._densities * missing_energy(*energies)
         return errors
 
@@ -67,6 +67,8 @@ class SharedErrors:
         self._momenta = np.column_stack([self._momenta, momentum / np.sqrt(energy)])
         potential = PETSc.Vec().createWithArray(self._answer.potentials @ direction, comm=PETSc.COMM_SELF)
         values = cell_values(self._liquid, [potential])
-        new = [table[0][:, :, None] for table in self._coefficients(values)]
-        known = self._tables or [table[:, :, :0] for table in new]
-        self._tables = [np.concatenate(pair, axis=2) for pair in zip(known, new, strict=True)]
+        # Of each degree: shape (coefficients, cells).
+        new = [table[0].T for table in self._coefficients(values)]
+        self._sizes = [len(table) for table in new]
+        row = np.concatenate(new).reshape(1, -1)
+        self._table = np.concatenate([self._table, row]) if len(self._table) else row

@@ -138,8 +138,7 @@ def _away_and_at(at_tips: np.ndarray, cells: np.ndarray, comm: MPI.Comm) -> tupl
     Raises:
         EigenSolverError: if an energy is not finite.
     """
-    tips = comm.allreduce(cells[:, at_tips].sum(axis=1), op=MPI.SUM)
-    whole = comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
+    tips, whole = comm.allreduce(np.array([cells[:, at_tips].sum(axis=1), cells.sum(axis=1)]), op=MPI.SUM)
     if not np.all(np.isfinite(whole)):
         # Comparisons of NaN with a tolerance are false.
         raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")

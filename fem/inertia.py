@@ -96,9 +96,7 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
 
 
-def _shared_count(
-    pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray
-) -> int | None:
+def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray) -> int | None:
     """The same with the surfaces eliminated in their gravity modes; ``None`` where σ is close to one of these."""
     found, bodies = answer.eliminated(eigenvalue), answer.bodies
     if found is None:

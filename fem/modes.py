@@ -25,7 +25,7 @@ HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
 PROJECTED = 1e-11
-"""Largest relative error of an eigenvalue by the projection of a shared answer; above it the whole problem is solved."""
+"""Largest relative error of a λ by the projection of a shared answer; above it the whole problem is solved."""
 
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.

@@ -173,3 +173,16 @@ class DenseModes:
         for constraint, pressure in zip(pencil.constraints, modes.pressures[:, some], strict=True):
             potentials[layer_of == constraint.layer] += pressure / constraint.density
         return potentials
+
+
+def projection_errors(inverses: np.ndarray, residuals: np.ndarray) -> np.ndarray:
+    """Upper bound of the relative error of each λ from its relative residual δ: δ, and δ² over the relative distance to
+    the next 1/λ (Kato and Temple), of which one more is given.
+
+    The distances are those of computed values, which are as good as exact ones where the bound is small.
+    """
+    count = len(residuals)
+    steps = -np.diff(inverses, prepend=np.inf, append=0.0)[: count + 1]
+    gaps = np.minimum(steps[:-1], steps[1:]) / inverses[:count]
+    bound: np.ndarray = np.minimum(residuals, residuals**2 / np.maximum(gaps, np.finfo(float).tiny))
+    return bound

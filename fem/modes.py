@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics, Operator
-from hydroelastic.fem.dense_modes import FEW, DenseModes
+from hydroelastic.fem.dense_modes import FEW, DenseModes, projection_errors
 from hydroelastic.fem.direct import configure_direct
+from hydroelastic.fem.mode_energies import energy_shares, residual_of
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.meshes.interrupts import interrupts_deferred
@@ -241,19 +241,8 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
         converged=count,
         iterations=iterations,
         solves=pencil.size,
-        projection=_projection_errors(inverses, found.residuals) if dense.is_projected else None,
+        projection=projection_errors(inverses, found.residuals) if dense.is_projected else None,
     )
-
-
-def _projection_errors(inverses: np.ndarray, residuals: np.ndarray) -> np.ndarray:
-    """Upper bound of the relative error of each λ from its relative residual δ: δ, and δ² over the relative distance to
-    the next 1/λ (Kato and Temple), of which one more is given.
-
-    The distances are those of computed values, which are as good as exact ones where the bound is small."""
-    count = len(residuals)
-    steps = -np.diff(inverses, prepend=np.inf, append=0.0)[: count + 1]
-    gaps = np.minimum(steps[:-1], steps[1:]) / inverses[:count]
-    return np.minimum(residuals, residuals**2 / np.maximum(gaps, np.finfo(float).tiny))
 
 
 def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
@@ -392,34 +381,7 @@ def _complete(
         eigenvalue=eigenvalue,
         displacement=displacement,
         shaped=lambda: potential,
-        residual=_residual(pencil, solver, eigenvalue, displacement, potential, force),
+        residual=residual_of(pencil, solver, eigenvalue, displacement, potential, force),
         body_amplitudes=pencil.body_values(displacement),
-        energy=_energy_shares(pencil, displacement, force),
+        energy=energy_shares(pencil, displacement, force),
     )
-
-
-def _residual(
-    pencil: CoupledPencil,
-    solver: SLEPc.EPS,
-    eigenvalue: float,
-    displacement: PETSc.Vec,
-    potential: PETSc.Vec,
-    force: PETSc.Vec,
-) -> float:
-    residual, image = force.copy(), force.duplicate()
-    pencil.momentum.multTranspose(potential, image)
-    residual.axpy(-eigenvalue, image)
-    pencil.mass.mult(displacement, image)
-    residual.axpy(-eigenvalue, image)
-    solver.getST().getKSP().solve(residual, image)
-    return float(np.sqrt(abs(residual.dot(image) / force.dot(displacement))))
-
-
-def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
-    total = displacement.dot(force)
-    bodies = pencil.body_values(displacement) * pencil.body_values(force)
-    comm = displacement.comm.tompi4py()
-    local = displacement.array_r * force.array_r
-    stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
-    surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
-    return np.array([*bodies, *surfaces]) / total

@@ -1,5 +1,6 @@
 """Files of WAMIT, BEMIO, Nemoh and Capytaine, read back by readers written from the formats' descriptions."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,6 +12,7 @@ import pytest
 import xarray
 from hydrodynamic_readers import Read, read_bemio, read_nemoh, read_wamit, rows
 
+from hydroelastic.benchmarks.peers import PeerError, peer_folder
 from hydroelastic.fem.open_water.results import RadiationTable, ResponseTable
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
@@ -25,6 +27,7 @@ from hydroelastic.scenes.models import SeaScene
 from hydroelastic.scenes.models.physical import physical_tank
 
 WIDTH = 7.0
+MATRICES = ("added_mass", "radiation_damping")
 # Numbers are written with ten digits.
 DIGITS = 1e-8
 PHASE_AT = -0.5
@@ -230,25 +233,74 @@ def test_capytaine_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
     )
 
 
-def test_capytaine_finds_the_motions_in_waves(bodies: WholeBodies, tmp_path: Path) -> None:
-    """Its own functions read the dataset, and its own exporter agrees with WAMIT's files."""
-    pytest.importorskip("capytaine")
-    from capytaine.io.xarray import merge_complex_values
-    from capytaine.post_pro import rao
+@pytest.fixture
+def capytaine(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Capytaine where it is installed, if only for the benchmarks, behind all that the environment has."""
+    try:
+        folder = peer_folder("capytaine", install=False, report=lambda _message: None)
+    except PeerError as error:
+        pytest.skip(f"{error}; `./hydro bench` installs it")
+    if folder is not None:
+        monkeypatch.setattr(sys, "path", [*sys.path, str(folder)])
+    return pytest.importorskip("capytaine")
 
-    write_capytaine(bodies, tmp_path / "barge.nc")
-    dataset = merge_complex_values(xarray.load_dataset(tmp_path / "barge.nc"))
-    own = np.flatnonzero(bodies.modelled)
+
+def opened(path: Path) -> Any:
+    """A dataset as Capytaine takes it, complex."""
+    from capytaine.io.xarray import merge_complex_values
+
+    return merge_complex_values(xarray.load_dataset(path))
+
+
+@pytest.mark.parametrize("which", ["bodies", "beam"])
+def test_capytaine_finds_the_motions_in_waves(
+    which: str, capytaine: Any, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """Its own functions read the dataset, rigid bodies and elastic modes alike."""
+    whole: WholeBodies = request.getfixturevalue(which)
+    write_capytaine(whole, tmp_path / "barge.nc")
+    dataset = opened(tmp_path / "barge.nc")
+    own = np.flatnonzero(whole.modelled)
     matrices = np.ix_(own, own)
-    for row, omega in enumerate(bodies.omega):
+    found = capytaine.post_pro.rao(dataset, wave_direction=np.pi, stiffness=dataset.get("bending_stiffness"))
+    for row, omega in enumerate(whole.omega):
         impedance = (
-            -(omega**2) * (bodies.inertia + bodies.added_mass[row])
-            - 1j * omega * bodies.radiation_damping[row]
-            + bodies.stiffness
+            -(omega**2) * (whole.inertia + whole.added_mass[row])
+            - 1j * omega * whole.radiation_damping[row]
+            + whole.stiffness
+            + whole.bending_stiffness
         )[matrices]
-        expected = np.linalg.solve(impedance, bodies.excitation_force[row, 1, own])
-        found = rao(dataset, wave_direction=np.pi).sel(omega=omega).values.squeeze()
-        np.testing.assert_allclose(found, expected, rtol=1e-10)
+        expected = np.linalg.solve(impedance, whole.excitation_force[row, 1, own])
+        np.testing.assert_allclose(found.sel(omega=omega).values.squeeze(), expected, rtol=1e-10)
+
+
+@pytest.mark.usefixtures("capytaine")
+def test_capytaine_writes_the_same_files_of_wamit(section: SimpleNamespace, tmp_path: Path) -> None:
+    """Two writers of one format, of one body in heave, sway and roll."""
+    from capytaine.io.wamit import export_wamit_1, export_wamit_3
+
+    barge = scene().model_dump()["body"][0] | {"motions": ["heave", "sway", "roll"]}
+    dofs = tuple(Dof(name) for name in ("heave", "sway", "roll"))
+    one = scene(body=[{name: value for name, value in barge.items() if value is not None}])
+    # Capytaine has the motion before the force, which is the same of matrices that are symmetric.
+    given = section.radiation
+    symmetric = {name: getattr(given, name) + getattr(given, name).swapaxes(1, 2) for name in MATRICES}
+    radiation = replace(given, dofs=dofs, **symmetric)
+    whole = bodies_of_tables(physical_tank(one), [radiation], [], [], width=WIDTH)
+    write_wamit(replace(whole, limits=(None, None)), tmp_path, "ours")
+    write_capytaine(whole, tmp_path / "barge.nc")
+    dataset = opened(tmp_path / "barge.nc")
+    export_wamit_1(dataset, str(tmp_path / "theirs.1"))
+    export_wamit_3(dataset, str(tmp_path / "theirs.3"))
+    # Of phases they write three decimals.
+    for kind, columns in (("1", [3, 4]), ("3", [3, 5, 6])):
+        ours, theirs = (
+            {tuple(np.round(row[:3], 3)): row[columns] for row in rows(tmp_path / f"{who}.{kind}")}
+            for who in ("ours", "theirs")
+        )
+        # Six digits are written there.
+        for at, values in ours.items():
+            np.testing.assert_allclose(theirs[at], values, rtol=2e-6, atol=1e-6, err_msg=f".{kind} {at}")
 
 
 SOLIDS = (Dof("body_1__heave"), Turn("body_1__pitch"), Dof("body_2__surge"))
@@ -262,7 +314,7 @@ def solids(section: SimpleNamespace) -> WholeBodies:
     ring = body | {"radius": 4.0, "inner_radius": 2.0, "motions": ["surge"]}
     radiation = replace(section.radiation, dofs=SOLIDS)
     # Heave is of another order than surge and pitch.
-    for name in ("added_mass", "radiation_damping"):
+    for name in MATRICES:
         values = getattr(radiation, name).copy()
         values[:, 0, 1:] = values[:, 1:, 0] = 0.0
         radiation = replace(radiation, **{name: values})

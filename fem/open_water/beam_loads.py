@@ -32,8 +32,8 @@ from hydroelastic.physics.beams import Beam
 
 # Gauss points beyond what polynomials and waves need.
 _SPARE_POINTS = 8
-# The load of a shear force jumps, which the modes in use represent less well: without this factor estimates are as small
-# as 0.8 of the error (measured at a tolerance of 1e-2).
+# The load of a shear force jumps, which the modes in use represent less well: without this factor estimates are down to
+# 0.8 of the error (measured at a tolerance of 1e-2).
 _JUMP = 1.5
 
 

@@ -269,9 +269,9 @@ def _at_rest(tank: Tank, index: int, width: float, radiation: RadiationTable) ->
 
 def _beam_at_rest(tank: Tank, index: int, width: float, radiation: RadiationTable) -> WholeBody:
     """A beam has no draught; it displaces its mass."""
-    own = {dof.motion: row for row, dof in enumerate(radiation.dofs) if (dof.body or 1) - 1 == index}
+    own = {str(dof.motion): row for row, dof in enumerate(radiation.dofs) if (dof.body or 1) - 1 == index}
     left, right = tank.beams[index].waterplane
-    mass, moment = radiation.inertia[own["heave"], [own["heave"], own["pitch"]]]
+    mass, moment = (float(radiation.inertia[own["heave"], own[name]]) for name in ("heave", "pitch"))
     # ∫ m √3 (2x/l − 1) dx over ∫ m dx.
     centre = 0.5 * (left + right) + moment / mass * (right - left) / (2.0 * sqrt(3.0)) - tank.phase_at
     return WholeBody(
@@ -280,5 +280,5 @@ def _beam_at_rest(tank: Tank, index: int, width: float, radiation: RadiationTabl
         centre_of_buoyancy=(centre, 0.0, 0.0),
         volume=width * mass / tank.layers[0].density,
         waterplane_area=width * (right - left),
-        modes=tuple(motion.capitalised for motion in own if motion.kind in ("hinge", "elastic")),
+        modes=tuple(Dof(motion).capitalised for motion in own if motion not in ("heave", "pitch")),
     )

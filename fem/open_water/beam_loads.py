@@ -34,7 +34,7 @@ from hydroelastic.physics.beams import Beam
 _SPARE_POINTS = 8
 # The load of a shear force jumps, which the modes in use represent less well: without this factor estimates are down to
 # 0.8 of the error (measured at a tolerance of 1e-2).
-_JUMP = 1.5
+_JUMP = 1.4
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -58,9 +58,9 @@ def test_incoming_power_is_scattered_or_absorbed(
     assert table.reflection is not None
     assert table.transmission is not None
     outgoing = np.abs(table.reflection[:, 0, 0]) ** 2 + np.abs(table.transmission[:, 0, 0]) ** 2
-    # Power is of first order in the error of waves, of which it has two.
-    assert np.abs(outgoing + table.absorption[:, 0] - 1.0).max() < 2.0 * tolerance
-    assert np.abs(table.energy_residual).max() < 2.0 * tolerance
+    # Measured: 2e-5 at the tolerance 1e-2; a tenth more damping than is counted as absorbed leaves 9e-3.
+    assert np.abs(outgoing + table.absorption[:, 0] - 1.0).max() < 0.3 * tolerance
+    assert np.abs(table.energy_residual).max() < 0.3 * tolerance
     # Dampers and drag are not idle.
     assert np.all(table.absorption > 0.01)
 
@@ -75,8 +75,9 @@ def test_damping_is_radiated_power_and_that_of_the_excitation_forces(
     asked = {"kind": "radiation", "omega": omegas, "elastic_modes": 3}
     liquid = [{"density": 1025.0, "depth": depth}]
     table = solved(sea(ALL, asked, tolerance=tolerance, liquid=liquid)).radiation[0]
-    assert np.abs(table.energy_residual).max() < 2.0 * tolerance
-    assert np.abs(table.haskind_residual).max() < 2.0 * tolerance
+    # Measured: 9e-6 at the tolerance 1e-2.
+    assert np.abs(table.energy_residual).max() < 0.3 * tolerance
+    assert np.abs(table.haskind_residual).max() < 0.3 * tolerance
     for row, omega in enumerate(omegas):
         damping, forces = table.radiation_damping[row], table.excitation_force[row, 0]
         k = float(table.wavenumbers[row, 0])

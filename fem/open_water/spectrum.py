@@ -117,7 +117,7 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             joined = joined_errors(causes, float(curves.errors.max()))
             # About a resonance they change by orders of magnitude.
             errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
-            curves = replace(curves, errors=errors)
+            curves = replace(curves, errors=errors, reduced=curves.errors)
             if problem.tank.geometry.is_revolved:
                 return Attempt(result=curves, causes=joined, resolution=resolution)
             table = _table(problem, request, [curves])
@@ -193,7 +193,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         mean_absorbed_power=_mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
         # Sections alone have beams, and one order.
-        plates=tuple(plate_statistics(request, curves[0], motions, drag)),
+        plates=tuple(plate_statistics(request, curves[0], _estimated(curves[0]), motions, drag)),
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import interp1d
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.beam_loads import BeamLoads
@@ -14,7 +15,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import plate_deflection
+from hydroelastic.fem.open_water.response import load_errors, plate_deflection
 from hydroelastic.fem.open_water.results import PlateStatistics
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import statistics
@@ -79,10 +80,11 @@ def motion_errors(models: list[OpenModel], errors: np.ndarray, motions: np.ndarr
 
 
 def plate_statistics(
-    request: SpectrumRequest, curves: Curves, motions: np.ndarray, drag: np.ndarray
+    request: SpectrumRequest, curves: Curves, places: list[int], motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateStatistics]:
-    """Deflection, bending moment and shear force along each beam."""
+    """Deflection, bending moment and shear force along each beam, with errors of the mesh estimated at some places."""
     model = curves.solver.model
+    known = load_errors(model, [curves.responses[place] for place in places])
     for index, beam in model.basin.tank.beams.items():
         x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
         along = BeamLoads(model, index, x)
@@ -90,7 +92,10 @@ def plate_statistics(
             along.of(one, motion[None] / one.per_elevation(RIGHTWARD)[0], drag[None])
             for one, motion in zip(curves.responses, motions, strict=True)
         ]
-        plate = plate_deflection(model, index, x, curves.responses, found, curves.errors)
+        logarithms = np.log(np.maximum(known[index], np.finfo(float).tiny))
+        # As those of the motions, about a resonance they change by orders of magnitude.
+        meshed = np.exp(interp1d(curves.omegas[places], logarithms, axis=0)(curves.omegas))
+        plate = plate_deflection(model, index, x, curves.responses, found, curves.reduced, meshed)
         told, parts = {}, np.zeros((len(CAUSES), len(_LOADS)))
         for place, name in enumerate(_LOADS):
             transfer = getattr(plate, name)[:, 0]

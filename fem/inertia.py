@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.dense_modes import FEW
 from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
+
+# Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
+_FEW = 150
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
@@ -93,10 +95,9 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
 
 def _negative(matrix: np.ndarray) -> int | None:
     """Number of negative eigenvalues of a symmetric matrix; ``None`` where one is zero to working precision."""
-    if len(matrix) <= FEW:
+    if len(matrix) <= _FEW:
         signs = np.linalg.eigvalsh(matrix)
         return None if np.abs(signs).min(initial=np.inf) <= np.finfo(float).eps else int(np.sum(signs < 0.0))
-    # SciPy's import takes longer than the eigenvalues of a small matrix.
     from scipy.linalg import lapack
 
     # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.

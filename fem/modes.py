@@ -223,7 +223,10 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
 def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
     """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts: by LAPACK where
     it is small."""
-    from slepc4py import SLEPc
+    if len(operator) <= FEW:
+        inverses, vectors = np.linalg.eigh(operator)
+        return inverses[: -count - 1 : -1], vectors[:, : -count - 1 : -1], 1
+    from slepc4py import SLEPc  # slow to import
 
     matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
     solver = SLEPc.EPS().create(PETSc.COMM_SELF)
@@ -232,8 +235,6 @@ def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.nda
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setTolerances(tolerance, 200)
     solver.setDimensions(count, min(2 * count + 12, len(operator)))
-    if len(operator) <= FEW:
-        solver.setType(SLEPc.EPS.Type.LAPACK)
     _, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     vector = matrix.createVecRight()

@@ -13,8 +13,12 @@ def start() -> None:
     end_on_interrupt()
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
+    import numpy as np
+
     from hydroelastic.scenes.command_line import main
 
+    # SciPy takes all names of NumPy, and would import these two, 70 modules, for names that it does not use.
+    np.__all__ = [name for name in np.__all__ if name not in ("f2py", "testing")]
     try:
         main()
     except Exception:

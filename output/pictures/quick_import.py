@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 
+_SIGNATURE = "_update_set_signature_and_docstring"
+
 
 def import_matplotlib() -> None:
     """Import what all pictures use; where matplotlib is imported already, nothing is done.
@@ -14,11 +16,13 @@ def import_matplotlib() -> None:
         return
     from matplotlib import artist
 
-    # It inspects all methods of each class, and is called for each from `Artist.__init_subclass__` on.
-    kept = artist.kwdoc
+    # It inspects all methods of each class twice, for the signature of `set` and for its documentation.
+    signature, kwdoc = vars(artist.Artist)[_SIGNATURE], artist.kwdoc
+    setattr(artist.Artist, _SIGNATURE, lambda: None)
     setattr(artist, "kwdoc", lambda _class: "")  # noqa: B010
     try:
         import matplotlib.backends.backend_agg
         import matplotlib.figure  # noqa: F401
     finally:
-        setattr(artist, "kwdoc", kept)  # noqa: B010
+        setattr(artist.Artist, _SIGNATURE, signature)
+        setattr(artist, "kwdoc", kwdoc)  # noqa: B010

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.dense_modes import FEW
 from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
+
+# Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
+_FEW = 150
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
@@ -116,10 +118,9 @@ def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float
 
 def _negative(matrix: np.ndarray) -> int | None:
     """Number of negative eigenvalues of a symmetric matrix; ``None`` where one is zero to working precision."""
-    if len(matrix) <= FEW:
+    if len(matrix) <= _FEW:
         signs = np.linalg.eigvalsh(matrix)
         return None if np.abs(signs).min(initial=np.inf) <= np.finfo(float).eps else int(np.sum(signs < 0.0))
-    # SciPy's import takes longer than the eigenvalues of a small matrix.
     from scipy.linalg import lapack
 
     # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.

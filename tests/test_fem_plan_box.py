@@ -10,16 +10,20 @@ import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
 from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.level_bed.choice import LevelModel
 from hydroelastic.fem.level_bed.interval import IntervalSpace
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.box import BoxModel, BoxSolution, solve_box
 from hydroelastic.fem.plan.box_resolution import BoxResolution, graded_nodes
 from hydroelastic.fem.plan.classes import SymmetryClass
+from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.physics.level_tank import Box, LevelTank
-from hydroelastic.physics.plate import Plate, Rectangle
+from hydroelastic.physics.plate import Plate, Rectangle, Strip
 
 RECTANGLES = [name for name, case in CASES.items() if case["family"] == "box_rectangle"]
 STRIPS = [name for name, case in CASES.items() if case["family"] == "box_strip" and case["inputs"]["kind"] == "plate"]
+
+MODELS: tuple[LevelModel, ...] = ("orders", "box")
 
 
 @cache
@@ -86,6 +90,30 @@ def test_a_tank_without_symmetry_has_the_same_modes() -> None:
     _, whole = _solved(moved, 1e-3, 6)
     # The tolerance asked; measured 4e-4.
     assert whole == pytest.approx(frequencies("rectangle_base_s0")[:6], rel=1e-3)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_plates_of_unlike_stiffness_have_the_released_tones_of_their_orders(hydrostatic: bool) -> None:
+    """Those of the stiffer ones lie above rigid motions and shorter waves of the softer ones."""
+    plates = tuple(
+        Plate(
+            outline=Strip(start=start, length=2.0, width=1.5),
+            flexural_rigidity=rigidity,
+            mass_per_area=50.0,
+            hydrostatic=hydrostatic,
+        )
+        for start, rigidity in ((0.7, 5e2), (3.7, 5e4), (7.1, 5e3))
+    )
+    tank = LevelTank(plan=Box(length=10.0, width=1.5), depth=2.0, plates=plates, **WATER)
+    exact, found = (solve_smallest_model(tank, tolerance=1e-3, modes=1, model=model).tones for model in MODELS)
+    for one, own in zip(found, exact, strict=True):
+        assert one.pressure_release is not None
+        assert one.pressure_release_error is not None
+        assert own.pressure_release is not None
+        assert own.pressure_release_error is not None
+        # Measured: 1e-4 to 2e-4.
+        error = abs(np.sqrt(one.pressure_release / own.pressure_release) - 1.0)
+        assert error < one.pressure_release_error + own.pressure_release_error < 2e-3
 
 
 def test_the_inertia_of_a_dense_problem_counts_as_many_modes() -> None:

@@ -28,7 +28,8 @@ from hydroelastic.fem.plan.plan_pencil import (
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
-from hydroelastic.fem.plan.released_plan import released_plan_pencil
+from hydroelastic.fem.plan.released import ReleasedProblem
+from hydroelastic.fem.plan.released_plan import released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
@@ -134,12 +135,12 @@ class PlanModel:
         waves = self.tank.top == "free"
         return plan_pencil(parts.space_of(parity), parts.poles, plates, waves=waves, comm=self.comm), plates
 
-    def released(self, resolution: PlanResolution, parity: ClassParity) -> CoupledPencil[PlanLiquid]:
+    def released(self, resolution: PlanResolution, parity: ClassParity) -> ReleasedProblem:
         """See `ClassModel.released`."""
         # ψ ~ r^{1/2} has a part in all waves as long as the innermost layer, which the poles have to follow.
         innermost = 0.5 * resolution.size * LAYER_RATIO**resolution.layers
         parts = self.parts(replace(resolution, wavenumber=1.0 / innermost))
-        return released_plan_pencil(parts.space_of(parity), parts.poles, parts.plates(parity))
+        return released_plan(parts.space_of(parity), parts.poles, parts.plates(parity))
 
     def errors(
         self, _resolution: PlanResolution, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]

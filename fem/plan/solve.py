@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model
-from hydroelastic.fem.level_bed.solution import BY_INERTIA, LevelMode, LevelProblem, LevelSolution, shortcomings
+from hydroelastic.fem.level_bed.solution import (
+    BY_INERTIA,
+    LevelMode,
+    LevelProblem,
+    LevelSolution,
+    PlateTone,
+    shortcomings,
+)
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -52,7 +59,7 @@ def solve_smallest_model(
         from hydroelastic.fem.level_bed.solve import solve_level_tank
 
         return solve_level_tank(physical, tolerance=tolerance, modes=modes, tones=tones, report=report)
-    from hydroelastic.fem.plan.plate_tone import class_tone, listed_tone
+    from hydroelastic.fem.plan.plate_tone import class_tones, listed_tones
 
     watch = Stopwatch()
     tank = physical.scaled()
@@ -70,7 +77,7 @@ def solve_smallest_model(
                 BoxProblem(symmetry_class=one, plates=found.plates[one.parity], size=size)
                 for one in found.modes.classes
             ]
-            tone_of = partial(class_tone, BoxModel(tank=tank))
+            tones_of = partial(class_tones, BoxModel(tank=tank))
         elif model == "volume":
             from hydroelastic.fem.volume.problem import VolumeProblem
             from hydroelastic.fem.volume.solve import solve_volume
@@ -78,7 +85,7 @@ def solve_smallest_model(
             assert isinstance(tank, VolumeTank)
             found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
-            tone_of = partial(listed_tone, tank)
+            tones_of = partial(listed_tones, tank)
         else:
             from hydroelastic.fem.plan.mesh_problem import MeshProblem
             from hydroelastic.fem.plan.plan import PlanModel, solve_plan
@@ -90,16 +97,15 @@ def solve_smallest_model(
                 MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
                 for one in found.modes.classes
             ]
-            tone_of = partial(class_tone, PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD))
+            tones_of = partial(class_tones, PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD))
     errors = found.relative_errors
     classes = found.modes
-    found_tones = []
     has_water = any(one.pencil.surfaces for one in classes.classes)
-    for index, plate in enumerate(tank.plates):
-        if plate.is_elastic and tones:
-            report(f"first elastic tone of plate {index + 1}")
-            with watch.stage("elastic tone"):
-                found_tones.append(tone_of(classes, errors, index, tolerance, has_water=has_water))
+    found_tones: list[PlateTone] = []
+    if tones and any(plate.is_elastic for plate in tank.plates):
+        report("first elastic tones of the plates")
+        with watch.stage("elastic tone"):
+            found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
     solution = LevelSolution(
         physical=physical,
         tank=tank,

@@ -4,12 +4,12 @@ It is the mode with the largest part of the plate's softest dry mode, in that sh
 among the modes that were asked for, more of this class are solved, until no higher one can have a larger part.
 
 With ψ = 0 on the water ψ ~ r^{1/2} at the edges, and the error falls like the thickness of the innermost layer: from
-two numbers of layers follows the limit, and from a third one its error.
+two numbers of layers follows the limit, and from a third one its error. Tones of one class are found together.
 """
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import ceil, pi
 from typing import Any, Generic, Protocol, TypeVar
@@ -26,6 +26,7 @@ from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.plan.released import ReleasedProblem, released_tones
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Plate
@@ -238,14 +239,31 @@ def _released(model: ClassModel[R], parity: ClassParity, tones: list[PlateTone],
         resolution = replace(start, layers=start.layers + more, degree=start.degree + int(more == 2))
         problem = model.released(resolution, parity)
         surfaces = [body.surface for body in problem.bodies]
-        found, residual = released_tones(problem, [surfaces.index(body_name(tone.plate + 1)) for tone in tones])
-        values.append(found)
-        residuals.append(residual)
-    first, limits = (
-        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO) for thicker, thinner in itertools.pairwise(values)
-    )
-    errors = _SAFETY * 0.5 * np.abs(first / limits - 1.0) + np.max(residuals, axis=0)
+        found = released_tones(problem, [surfaces.index(body_name(tone.plate + 1)) for tone in tones])
+        values.append(found.eigenvalues)
+        residuals.append(found.errors)
+    limits, errors = released_limits(values, start.degree)
+    errors += np.max(residuals, axis=0)
     return [
         replace(tone, pressure_release=float(limit), pressure_release_error=float(error))
         for tone, limit, error in zip(tones, limits, errors, strict=True)
     ]
+
+
+def released_limits(values: Sequence[FloatArray], degree: int) -> tuple[FloatArray, FloatArray]:
+    """Return the limit of λ for thin layers, and the relative error of its root.
+
+    Of ψ ~ r^{1/2} the innermost cell of the thickness h and the degree p lacks an energy in proportion to h/p² (I.
+    Babuška and M. Suri, SIAM J. Numer. Anal. 24 (1987) 750).
+
+    Args:
+        values: with three numbers of layers, the last ones in a degree more.
+        degree: of the first ones.
+    """
+    thicker, thinner, last = values
+    ratios = _RATIO, _RATIO * (degree / (degree + 1)) ** 2
+    first, limits = (
+        after - (before - after) * ratio / (1.0 - ratio)
+        for before, after, ratio in zip((thicker, thinner), (thinner, last), ratios, strict=True)
+    )
+    return limits, _SAFETY * 0.5 * np.abs(first / limits - 1.0)

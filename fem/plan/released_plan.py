@@ -79,9 +79,11 @@ def released_plan(space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlat
     moving = tuple(plate for plate in plates if plate.body.size)
     return ReleasedProblem(
         bodies=tuple(plate.body for plate in moving),
+        free=free,
         loads=np.concatenate([space.loads(plate)[:, free] for plate in moving]),
         apply=apply,
         precondition=precondition,
+        poles=len(poles.shifts),
     )
 
 

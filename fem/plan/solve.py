@@ -24,6 +24,7 @@ from hydroelastic.physics.volume_tank import VolumeTank
 if TYPE_CHECKING:
     from hydroelastic.fem.plan.box import BoxSolution
     from hydroelastic.fem.plan.plan import PlanSolution
+    from hydroelastic.fem.plan.released_solve import ReleasedSolution
     from hydroelastic.fem.volume.solve import VolumeSolution
 
 
@@ -64,20 +65,28 @@ def solve_smallest_model(
     watch = Stopwatch()
     tank = physical.scaled()
     problems: list[LevelProblem] = []
-    found: BoxSolution | PlanSolution | VolumeSolution
+    released = tank.top == "pressure_release" and len(tank.plates) > 0
+    found: BoxSolution | PlanSolution | ReleasedSolution | VolumeSolution
     with watch.stage("modes"):
         if model == "box":
-            from hydroelastic.fem.plan.box import BoxModel, solve_box
+            from hydroelastic.fem.plan.box import BoxModel, solve_box, symmetries
             from hydroelastic.fem.plan.box_problem import BoxProblem
 
             assert isinstance(tank.plan, Box)
-            found = solve_box(tank, tolerance=tolerance, count=modes, report=report)
+            if released:
+                from hydroelastic.fem.plan.released_solve import solve_released
+
+                found = solve_released(
+                    BoxModel(tank=tank), symmetries(tank), tolerance=tolerance, count=modes, report=report
+                )
+            else:
+                found = solve_box(tank, tolerance=tolerance, count=modes, report=report)
             size = (tank.plan.length, tank.plan.width)
             problems += [
                 BoxProblem(symmetry_class=one, plates=found.plates[one.parity], size=size)
                 for one in found.modes.classes
             ]
-            tones_of = partial(class_tones, BoxModel(tank=tank))
+            tones_of = partial(listed_tones, tank) if released else partial(class_tones, BoxModel(tank=tank))
         elif model == "volume":
             from hydroelastic.fem.volume.problem import VolumeProblem
             from hydroelastic.fem.volume.solve import solve_volume
@@ -88,16 +97,25 @@ def solve_smallest_model(
             tones_of = partial(listed_tones, tank)
         else:
             from hydroelastic.fem.plan.mesh_problem import MeshProblem
-            from hydroelastic.fem.plan.plan import PlanModel, solve_plan
-            from hydroelastic.meshes.plan_regions import plan_regions
+            from hydroelastic.fem.plan.plan import PlanModel, mirrored_classes, solve_plan
+            from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 
-            found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            _, regions = plan_regions(tank)
+            plan_model = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
+            wall, regions = plan_regions(tank)
+            mirrors = mirrors_of(wall, regions)
+            if released:
+                from hydroelastic.fem.plan.released_solve import solve_released
+
+                found = solve_released(
+                    plan_model, mirrored_classes(mirrors), tolerance=tolerance, count=modes, report=report
+                )
+            else:
+                found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             problems += [
-                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
+                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=mirrors)
                 for one in found.modes.classes
             ]
-            tones_of = partial(class_tones, PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD))
+            tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan_model)
     errors = found.relative_errors
     classes = found.modes
     has_water = any(one.pencil.surfaces for one in classes.classes)

@@ -120,7 +120,12 @@ def test_plates_of_unlike_stiffness_have_the_released_tones_of_their_orders() ->
 
 
 @pytest.mark.parametrize(
-    ("hydrostatic", "model"), [(False, "box"), pytest.param(True, "box", marks=pytest.mark.slow), (True, "plan")]
+    ("hydrostatic", "model"),
+    [
+        (False, "box"),
+        pytest.param(True, "box", marks=pytest.mark.slow),
+        pytest.param(True, "plan", marks=pytest.mark.slow),
+    ],
 )
 def test_modes_with_a_released_surface_are_those_of_orders(*, hydrostatic: bool, model: LevelModel) -> None:
     if model == "box":

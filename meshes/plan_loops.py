@@ -21,8 +21,8 @@ Mirrors: TypeAlias = tuple[float | None, float | None]
 
 # Corners of a wall that turn the other way by more than this are re-entrant, radians.
 _REENTRANT = 1e-3
-# Corners of a wall that turn by less than this are obtuse: ψ ~ r^{π/α} with an angle α of 100 degrees or more, which few
-# nodes resolve.
+# Corners of a wall that turn by less than this are obtuse: ψ ~ r^{π/α} with an angle α of 100 degrees or more, which
+# few nodes resolve.
 _OBTUSE, _FEW_NODES = 1.4, 3
 # Corners that turn by less than this are none: where mirror planes cross a side.
 _FLAT = 1e-9

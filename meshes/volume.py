@@ -16,11 +16,13 @@ from scipy.interpolate import RBFInterpolator
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
 from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls, release_numbers
+from hydroelastic.meshes.edge_layers import with_edge_layers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
+from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
@@ -28,7 +30,6 @@ from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
     baffle_faces,
     below,
-    box_around,
     face,
     faces_of,
     float_solid,
@@ -36,9 +37,9 @@ from hydroelastic.meshes.volume_solids import (
     liquid_solid,
 )
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.dofs import body_name, body_number
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Cylinder, FilePlan, middle_of
-from hydroelastic.physics.plate import Disc, Rectangle
+from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
@@ -54,10 +55,6 @@ _LEAST_CURVED = 0.2
 _LEVEL = 1e-7
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
-# The vertical part of the normal of a wall that meets the still surface at right angles is less.
-_UPRIGHT = 0.1
-# By so much boxes around edges are larger than these.
-_BOXES = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,6 +68,7 @@ class VolumeSizes:
         around: least number of cells around a curved wall.
         refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
             sizes then; see `meshes.refinement`.
+        layers: how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`.
     """
 
     edge: float
@@ -78,6 +76,7 @@ class VolumeSizes:
     geometry: int
     around: int = 16
     refinements: int = 0
+    layers: int = 0
 
     @property
     def coarse(self) -> VolumeSizes:
@@ -105,7 +104,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
     with gmsh_model():
         parts = _parts(tank, mirrors)
         _require_covered(tank, parts, 2 ** sum(mirror is not None for mirror in mirrors))
-        edges, curved, faces = _singular_edges(tank, parts, mirrors), _is_curved(tank), parts.faces
+        edges, curved, faces = singular_edges(tank, parts.faces, mirrors), _is_curved(tank), parts.faces
         surfaces: dict[tuple[str, ...], Surface] = {}
         if sizes.refinements:
             apart = {tag: f"{name}{APART}{tag}" for tag, name in faces.items()}
@@ -119,11 +118,9 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             if degree > 1:
                 gmsh.model.mesh.setOrder(degree)
         mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name}, parts.layers)
+        segments, corners = singular_segments(mesh, edges)
     if sizes.refinements:
         return VolumeMesh(noded=mesh, volume=parts.volume, surfaces=surfaces, curved=curved)
-    cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
-    if cuts:
-        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
     volume = parts.volume
     if isinstance(tank.bed, SurveyedBed):
         stretched = mesh_integral(mesh, lambda places: np.asarray(bed(places[:, :2]) / tank.depth))
@@ -131,7 +128,13 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points = mesh.points.copy()
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
-    return VolumeMesh(noded=checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats), volume=volume)
+    # Parts of curved cells may be thinner than these are curved; they are inverted only where these are.
+    mesh = checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats)
+    mesh = with_edge_layers(mesh, segments, corners, sizes.layers)
+    cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
+    if cuts:
+        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
+    return VolumeMesh(noded=mesh, volume=volume)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -273,46 +276,6 @@ def _is_curved(tank: VolumeTank) -> bool:
 
 def _kinds() -> set[str]:
     return {gmsh.model.getType(2, tag) for _, tag in gmsh.model.getEntities(2)}
-
-
-def _singular_edges(tank: VolumeTank, parts: _Parts, mirrors: Mirrors) -> set[int]:
-    """Edges of plates, corners of floats and columns, and tips of baffles; not those that planes of symmetry make, nor
-    where walls of a float meet the still surface at right angles."""
-    found: set[int] = set()
-    beside: set[int] = set()
-    tips: list[int] = []
-    for tag, name in parts.faces.items():
-        edges = [edge for _, edge in gmsh.model.getBoundary([(2, tag)], oriented=False)]
-        if name == BAFFLE:
-            tips += edges
-            continue
-        beside |= {*edges, *(edge for dim, edge in gmsh.model.mesh.getEmbedded(2, tag) if dim == 1)}
-        number = body_number(name)
-        if number is None:
-            continue
-        for edge in edges:
-            box = box_around((1, edge))
-            level = number > len(tank.plates) and np.abs(box[:, 2]).max() < _BOXES and _is_upright(tag, edge)
-            if not level and not any(
-                mirror is not None and np.abs(box[:, axis] - mirror).max() < _BOXES
-                for axis, mirror in enumerate(mirrors)
-            ):
-                found.add(edge)
-    found |= {edge for edge in tips if tips.count(edge) == 1} - beside
-    corners = [corner for outline in tank.columns if isinstance(outline, Rectangle) for corner in outline.corners]
-    for edge in beside if corners else ():
-        low, high = box_around((1, edge))
-        if any(np.abs([*(low[:2] - corner), *(high[:2] - corner)]).max() < _BOXES for corner in corners):
-            found.add(edge)
-    return found
-
-
-def _is_upright(face: int, edge: int) -> bool:
-    """Whether a face meets the still surface at right angles, in the middle of an edge of it."""
-    (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
-    place = gmsh.model.getValue(1, edge, [0.5 * (start + end)])
-    normal = gmsh.model.getNormal(face, gmsh.model.getParametrization(2, face, place))
-    return bool(abs(normal[2]) < _UPRIGHT)
 
 
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:

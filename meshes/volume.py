@@ -24,7 +24,7 @@ from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
@@ -96,6 +96,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
 
     Raises:
         FoldedError: if a cell is inverted.
+        MisplacedError: if parts of the tank do not fit together.
         MeshError: if gmsh fails, or if the file's groups do not fit.
     """
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
@@ -186,7 +187,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         occ.remove(others, recursive=True)
         occ.synchronize()
     if len(liquids) != 1 + bool(lower) and not tank.baffles:
-        raise MeshError("the bed divides the liquid")
+        raise MisplacedError("the bed divides the liquid")
     layers = {tag: (LOWER_LIQUID if (3, tag) in lower else UPPER_LIQUID) if lower else LIQUID for _, tag in liquids}
     owners = {tag: name for name in tools for dim, tag in pieces[name] if dim == 2}
     faces = {
@@ -195,7 +196,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
     }
     left = set(gmsh.model.getEntities(2))
     if any((2, tag) not in left for tag, name in owners.items() if name == BAFFLE):
-        raise MeshError("a baffle meets a float")
+        raise MisplacedError("a baffle meets a float")
     faces |= {tag: BAFFLE for tag, name in owners.items() if name == BAFFLE}
     if lower:
         shared = faces_of(sorted(lower)) & faces_of(sorted(liquids - lower))
@@ -250,7 +251,7 @@ def _require_covered(tank: VolumeTank, parts: _Parts, images: int) -> None:
     for number, plate in enumerate(tank.plates, 1):
         area = sum(gmsh.model.occ.getMass(2, tag) for tag, name in parts.faces.items() if name == body_name(number))
         if images * area < plate.outline.area * (1.0 - _LEVEL):
-            raise MeshError(f"plate {number} does not lie on the still surface of the tank")
+            raise MisplacedError(f"plate {number} does not lie on the still surface of the tank")
 
 
 def _name(tag: int, wetted: dict[str, set[int]], mirrors: Mirrors) -> str:

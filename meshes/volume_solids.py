@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.meshes.hull_file import hull_solid
 from hydroelastic.meshes.plan_loops import Mirrors
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 from hydroelastic.meshes.volume_file import solid_of_file
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, middle_of
 from hydroelastic.physics.obstacles import Baffle, VerticalBaffle
@@ -32,7 +32,7 @@ def liquid_solid(tank: VolumeTank) -> Entities:
         whole = occ.getMass(*solid[0])
         solid = [one for one in occ.cut(solid, _prism(face(outline), 2.0 * _reach(tank)))[0] if one[0] == 3]
         if len(solid) != 1 or occ.getMass(*solid[0]) > whole * (1.0 - _NOTHING):
-            raise MeshError(f"column {number} does not stand in the tank, or divides it")
+            raise MisplacedError(f"column {number} does not stand in the tank, or divides it")
     return solid
 
 
@@ -107,7 +107,7 @@ def baffle_faces(baffle: Baffle, tank: VolumeTank, liquid: Entities) -> Entities
     """The part of a baffle in the liquid.
 
     Raises:
-        MeshError: if there is none.
+        MisplacedError: if there is none.
     """
     if isinstance(baffle, VerticalBaffle):
         (x, y), (right, back) = baffle.start, baffle.end
@@ -117,7 +117,7 @@ def baffle_faces(baffle: Baffle, tank: VolumeTank, liquid: Entities) -> Entities
         own = face(baffle.outline, baffle.level)
     found = [one for one in gmsh.model.occ.intersect(own, liquid, removeTool=False)[0] if one[0] == 2]
     if not found:
-        raise MeshError("a baffle does not lie in the liquid")
+        raise MisplacedError("a baffle does not lie in the liquid")
     return found
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from hydroelastic.output.level_tank.floats import FLOATS, floats_at_rest
 from hydroelastic.physics.obstacles import LevelBaffle, VerticalBaffle
@@ -15,6 +16,7 @@ from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.level_tank.check import check_level_tank
+from hydroelastic.scenes.level_tank.solve import solve_level_scene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 from hydroelastic.scenes.read import read_scene
@@ -141,6 +143,26 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         {"liquid": [{"density": 1025.0, "depth": 2.0}, {"density": 1000.0, "depth": 0.5}], "body": [OUTLINE]},
         "no liquid of the upper one below",
     ),
+    "bed on a line": (
+        {
+            "tank": {
+                "length": 10.0,
+                "width": 6.0,
+                "bed": {"points": [[0.0, 0.0, 0.0], [5.0, 1.0, 0.5], [10.0, 2.0, 0.2]]},
+            }
+        },
+        "lie on a line",
+    ),
+    "bed with a point twice": (
+        {
+            "tank": {
+                "length": 10.0,
+                "width": 6.0,
+                "bed": {"points": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [10.0, 2.0, 0.2], [2.0, 6.0, 0.1]]},
+            }
+        },
+        "in one place",
+    ),
     "baffle over a surveyed bed": (
         {
             "tank": {
@@ -161,6 +183,25 @@ def test_what_does_not_fit_is_refused(case: str) -> None:
     given: dict[str, Any] = {"tank": {"length": 10.0, "width": 6.0}, "liquid": [WATER]}
     with pytest.raises((SceneError, ValueError), match=said):
         LevelTankScene(**(given | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"baffle": [{"start": [12.0, 0.0], "end": [12.0, 6.0]}]}, "a baffle does not lie in the liquid"),
+        (
+            {"body": [CYLINDER | {"draught": 0.5}], "baffle": [{"start": [5.0, 0.0], "end": [5.0, 6.0]}]},
+            "a baffle meets a float",
+        ),
+    ],
+)
+def test_what_only_its_volume_shows_is_an_error_of_the_scene(changes: dict[str, Any], said: str) -> None:
+    """With the exit code of one: nothing can be solved until the scene is mended."""
+    scene = LevelTankScene(**({"tank": {"length": 10.0, "width": 6.0}, "liquid": [WATER]} | changes))
+    with pytest.raises(SceneError, match=said):
+        list(check_level_tank(scene))
+    with pytest.raises(SceneError, match=said):
+        solve_level_scene(scene, MPI.COMM_SELF, lambda _message: None)
 
 
 def test_a_hull_with_a_hole_is_refused_with_file_and_place(tmp_path: Path) -> None:

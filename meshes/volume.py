@@ -35,6 +35,7 @@ from hydroelastic.meshes.volume_solids import (
     float_solid,
     kept,
     liquid_solid,
+    require_inside,
 )
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name
@@ -166,6 +167,10 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
     volume = occ.getMass(*liquid[0]) - sum(solid.hydrostatics.volume for solid in tank.floats) / images
     tools = {body_name(index): kept(face(plate.outline), tank, mirrors) for index, plate in enumerate(tank.plates, 1)}
     tools |= {name: kept(float_solid(floats[name]), tank, mirrors) for name in floats if name not in hulls}
+    if isinstance(tank.plan, FilePlan):
+        # Of other plans the scene tells.
+        for name in tools.keys() & floats.keys():
+            require_inside(name, tools[name], liquid)
     tools[BAFFLE] = [one for baffle in tank.baffles for one in baffle_faces(baffle, tank, liquid)]
     if tank.interface is not None:
         tools[LOWER_LIQUID] = below(tank, tank.interface)

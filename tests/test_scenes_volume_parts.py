@@ -6,10 +6,12 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import gmsh
 import numpy as np
 import pytest
 from mpi4py import MPI
 
+from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.output.level_tank.floats import FLOATS, floats_at_rest
 from hydroelastic.physics.obstacles import LevelBaffle, VerticalBaffle
 from hydroelastic.physics.plate import Disc
@@ -202,6 +204,21 @@ def test_what_only_its_volume_shows_is_an_error_of_the_scene(changes: dict[str, 
         list(check_level_tank(scene))
     with pytest.raises(SceneError, match=said):
         solve_level_scene(scene, MPI.COMM_SELF, lambda _message: None)
+
+
+@pytest.mark.parametrize("x", [9.0, 0.5, 0.3])
+def test_a_float_beside_a_solid_of_cad_or_at_its_wall_is_refused(x: float, tmp_path: Path) -> None:
+    with gmsh_model():
+        gmsh.model.occ.addBox(0.0, 0.0, 0.0, 4.0, 3.0, 2.0)
+        gmsh.model.occ.synchronize()
+        gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+        gmsh.write(str(tmp_path / "tank.step"))
+    body = CYLINDER | {"radius": 0.5, "draught": 0.4, "position": [x, 1.5], "vertical_centre_of_gravity": -0.1}
+    scene = LevelTankScene(tank={"shape": str(tmp_path / "tank.step")}, liquid=[WATER], body=[body])
+    with pytest.raises(SceneError, match="body 1 does not lie in the liquid, or touches the tank"):
+        list(check_level_tank(scene))
+    inside = scene.model_copy(update={"body": (scene.body[0].model_copy(update={"position": (2.0, 1.5)}),)})
+    assert any("tetrahedra" in line for line in list(check_level_tank(inside))[-1].lines)
 
 
 def test_a_hull_with_a_hole_is_refused_with_file_and_place(tmp_path: Path) -> None:

@@ -186,7 +186,7 @@ def _solve(
         growing = any(len(one.pencil.unstable) for one in modes.classes)
         by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
         counted = (
-            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver))
+            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver), repeated=True)
             if by_inertia
             else no_mode_is_beyond(modes, products)
         )

@@ -79,11 +79,13 @@ def singular_segments(mesh: NodedMesh, edges: set[int]) -> tuple[NDArray[np.int6
     found = [np.empty((0, 2), np.int64)]
     for edge in sorted(edges):
         # Of each edge of a cell the ends come first, then the nodes between them.
-        (kind,), _, (nodes,) = gmsh.model.mesh.getElements(1, edge)
         tags, coordinates, _ = gmsh.model.mesh.getNodes(1, edge, includeBoundary=True)
         places = dict(zip(tags, coordinates.reshape(-1, 3), strict=True))
-        ends = nodes.reshape(-1, gmsh.model.mesh.getElementProperties(kind)[3])[:, :2]
-        found.append(corners[nearest.query([[places[end] for end in pair] for pair in ends])[1]])
+        kinds, _, nodes = gmsh.model.mesh.getElements(1, edge)
+        # The pole of a sphere is a curve without any.
+        for kind, own in zip(kinds, nodes, strict=True):
+            ends = own.reshape(-1, gmsh.model.mesh.getElementProperties(kind)[3])[:, :2]
+            found.append(corners[nearest.query([[places[end] for end in pair] for pair in ends])[1]])
     every = np.concatenate(found)
     ends, counts = np.unique(every, return_counts=True)
     angles = []

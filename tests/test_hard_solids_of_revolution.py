@@ -90,7 +90,7 @@ def test_a_ring_with_a_moon_pool_agrees_with_the_reference(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-5), ("hemisphere Ka", 1e-6), ("c1 Ka", 1e-5)]
+    ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-4), ("hemisphere Ka", 1e-6), ("c1 Ka", 1e-5)]
 )
 def test_impulse_responses_give_added_mass_and_damping_back(name: str, tolerance: float) -> None:
     """a and b by K against the references; the water of the pool has resonances of widths down to 1e-9 without end."""

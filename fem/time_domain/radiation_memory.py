@@ -90,9 +90,7 @@ class RadiationMemory:
         sizes = np.linalg.norm(known, axis=0)
         found = np.linalg.lstsq(known / sizes, wanted, rcond=_DEPENDENT)[0] / sizes[:, None]
         added = (found[: len(rates)] + 1j * found[len(rates) :]).reshape(len(rates), *self.weights.shape[1:])
-        return replace(
-            self, rates=np.concatenate([self.rates, rates]), weights=np.concatenate([self.weights, added])
-        )
+        return replace(self, rates=np.concatenate([self.rates, rates]), weights=np.concatenate([self.weights, added]))
 
 
 def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floats:

@@ -60,8 +60,8 @@ _STILL, _ROUNDS = 1e-3, 5
 _WIDE = 0.15
 # Angle between points of one ray, rad.
 _ROUNDING = 1e-9
-# Frequencies over the highest one of the mesh at which exponentials for the resonances above it are fitted, but for those
-# that are as near to a resonance; frequencies and loss of these exponentials.
+# Frequencies over the highest one of the mesh at which exponentials for the resonances above it are fitted, but for
+# those that are as near to a resonance; frequencies and loss of these exponentials.
 _FITTED, _CLEAR = np.geomspace(1e-3, 1.0, 120), 0.01
 _FASTER, _LOSS = 1.0 + np.geomspace(0.03, 20.0, 12), 1e-3
 # Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.

@@ -57,6 +57,21 @@ def test_poles_before_the_ray_are_exponentials_of_their_own() -> None:
     np.testing.assert_allclose(found.impulse_response(times)[:, 0, 0], known, atol=1e-8)
 
 
+def test_what_faster_oscillations_add_is_fitted(memory: RadiationMemory) -> None:
+    """Two oscillations above the frequencies of H, as of narrow water: a and b come back between those of the fit."""
+
+    def whole(omega: np.ndarray) -> np.ndarray:
+        faster = 0.1 / (3.3**2 - omega**2) + 0.05 / (5.0**2 - omega**2)
+        return LIMIT + (beyond_limit(-1j * omega) + faster)[:, None, None]
+
+    fitted, others = np.geomspace(0.01, 3.0, 60), np.geomspace(0.013, 2.9, 23)
+    rates = (1j - 1e-3) * 3.0 * (1.0 + np.geomspace(0.03, 20.0, 12))
+    found = memory.completed(fitted, whole(fitted), rates).hydrodynamic(others)
+    assert np.abs(memory.hydrodynamic(others) - whole(others)).max() > 1e-2
+    # The rule's 1e-10 at both ends of the ray, and that of 12 exponentials.
+    np.testing.assert_allclose(found, whole(others), atol=1e-6)
+
+
 def test_added_mass_and_damping_come_back(memory: RadiationMemory) -> None:
     omega = np.geomspace(1e-2, 30.0, 50)
     whole = LIMIT[0, 0] + beyond_limit(-1j * omega)

@@ -143,6 +143,21 @@ class MotionRequest:
 
 
 @dataclass(frozen=True, kw_only=True)
+class AirGapPoint:
+    """A point over the water, whose height above the moving surface is asked for.
+
+    Attributes:
+        at: (x, y) at rest, m.
+        across: its distance from the vertical plane of x and y, m; of solids of revolution alone.
+        body: index of the body with which it moves; ``None`` of a fixed point.
+    """
+
+    at: tuple[float, float]
+    across: float = 0.0
+    body: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class SpectrumRequest:
     """Statistics of the response to irregular waves.
 
@@ -155,6 +170,7 @@ class SpectrumRequest:
         points: points of bodies at which motions are reported, (index of the body, (x, y) in m).
         positions: number of points along each beam.
         thickness: of beams, m, for their stresses 6M/h²; ``None`` for no stresses.
+        air_gaps: points whose height above the moving surface is reported.
     """
 
     kind: ClassVar = "spectrum"
@@ -166,6 +182,7 @@ class SpectrumRequest:
     points: tuple[tuple[int, tuple[float, float]], ...] = ()
     positions: int = 51
     thickness: float | None = None
+    air_gaps: tuple[AirGapPoint, ...] = ()
 
     @property
     def band(self) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import hypot
 from typing import TYPE_CHECKING
 
+import numpy as np
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import attachments as physics
@@ -45,6 +46,34 @@ def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 None,
                 "in some motion it adds power instead of taking it",
                 allowed="a matrix without negative eigenvalues",
+            )
+
+
+def closed_tanks_have_springs_alone(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield attachments of closed tanks that are not springs between a float and the ground."""
+    for index, one in enumerate(() if scene.is_open else scene.attachment):
+        damping = [key for key in ("damping", "quadratic_damping") if np.any(getattr(one, key))]
+        if damping:
+            yield problem_at(
+                ("attachment", index, damping[0]),
+                None,
+                "the modes of a tank with walls are those of a real symmetric problem, which has no damping",
+                allowed="stiffness alone",
+                remedy='Leave it out, or set ends = "open" in [tank], where resonances are complex',
+            )
+        if one.to is not None:
+            yield problem_at(
+                ("attachment", index, "to"),
+                one.to,
+                "in a tank with walls springs hold floats to the ground, not to each other",
+                remedy='Leave it out, or set ends = "open" in [tank]',
+            )
+        if one.body <= len(scene.body) and not isinstance(scene.body[one.body - 1], AnyFloat):
+            yield problem_at(
+                ("attachment", index, "body"),
+                one.body,
+                "in a tank with walls springs hold floats, and this is a beam",
+                remedy='Hold a float, or set ends = "open" in [tank]',
             )
 
 
@@ -103,21 +132,25 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Spectrum):
             continue
-        moving = [("points", number, point) for number, point in enumerate(analysis.points)]
-        moving += [("air_gaps", number, gap) for number, gap in enumerate(analysis.air_gaps) if gap.body is not None]
-        for key, number, point in moving:
+        moving = [("points", number, point.body, point.at) for number, point in enumerate(analysis.points)]
+        moving += [
+            ("air_gaps", number, gap.body, gap.at)
+            for number, gap in enumerate(analysis.air_gaps)
+            if gap.body is not None
+        ]
+        for key, number, one, at in moving:
             where = ("analysis", index, key, number)
-            if point.body > len(scene.body):
+            if one > len(scene.body):
                 yield problem_at(
-                    (*where, "body"), point.body, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
+                    (*where, "body"), one, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
                 )
                 continue
-            body = scene.body[point.body - 1]
-            if not isinstance(body, AnyFloat) and not body.start <= point.at[0] <= body.end:
+            body = scene.body[one - 1]
+            if not isinstance(body, AnyFloat) and not body.start <= at[0] <= body.end:
                 yield problem_at(
                     (*where, "at"),
                     None,
-                    f"x = {point.at[0]:g} m does not lie on the beam, [[body]] number {point.body}",
+                    f"x = {at[0]:g} m does not lie on the beam, [[body]] number {one}",
                     allowed=f"x from {body.start:g} to {body.end:g} m",
                 )
         low = analysis.spectrum.band[0]

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
+from hydroelastic.physics.dofs import Dof
+
 if TYPE_CHECKING:
     # Spectra need SciPy, whose import is slow.
     from hydroelastic.physics.wave_spectrum import WaveSpectrum
@@ -124,7 +126,7 @@ class RegularWave:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionRequest:
-    """Motions over time in waves that begin at t = 0, from rest.
+    """Motions over time in waves that begin at t = 0, from rest, or from a displacement of one float.
 
     Attributes:
         times: ascending, s.
@@ -132,6 +134,9 @@ class MotionRequest:
         waves_from: the side from which they come.
         ramp: time in which they grow to their height, s.
         elastic_modes: number of elastic shapes of each beam.
+        body: index of the float that is released at t = 0.
+        heave: its initial displacement upwards, m.
+        roll: its initial rotation, the roll of a section or the pitch of a solid, rad.
     """
 
     kind: ClassVar = "motion"
@@ -140,6 +145,18 @@ class MotionRequest:
     waves_from: Literal["left", "right"] = "left"
     ramp: float = 0.0
     elastic_modes: int = 4
+    body: int = 0
+    heave: float = 0.0
+    roll: float = 0.0
+
+    def initial(self, dofs: tuple[Dof, ...]) -> tuple[float, ...]:
+        """Return the displacement of each motion at t = 0, m or rad."""
+        return tuple(
+            {"heave": self.heave, "roll": self.roll, "pitch": self.roll}.get(dof.motion, 0.0)
+            if (dof.body or 1) - 1 == self.body
+            else 0.0
+            for dof in dofs
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,7 @@ ends of the ray.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TypeAlias
 
@@ -43,6 +43,14 @@ class RadiationMemory:
     infinite_frequency_added_mass: Floats
     rates: Complexes
     weights: Complexes
+
+    def scaled(self, factor: float) -> RadiationMemory:
+        """Return the memory of a multiple of H."""
+        return replace(
+            self,
+            infinite_frequency_added_mass=factor * self.infinite_frequency_added_mass,
+            weights=factor * self.weights,
+        )
 
     def impulse_response(self, times: Floats) -> Floats:
         """K at times t ≥ 0, s, shape (n,): shape (n, m, m)."""

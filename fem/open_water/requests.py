@@ -20,11 +20,13 @@ class RadiationRequest:
     Attributes:
         omega: frequencies, rad/s; 0 for the limit of long waves, inf for the infinite-frequency limit.
         elastic_modes: number of elastic shapes of each beam that are reported.
+        fields_at: frequencies at which fields are written and drawn, rad/s; empty for those of the largest damping.
     """
 
     kind: ClassVar = "radiation"
     omega: tuple[float, ...]
     elastic_modes: int = 4
+    fields_at: tuple[float, ...] = ()
 
     @property
     def band(self) -> tuple[float, float] | None:

@@ -46,6 +46,7 @@ class RadiationTable:
         stiffness: (m, m) of the bodies and hydrostatics, N/m², N/m, N.
         infinite_frequency_added_mass: (m, m), the limit of infinite frequency, if it was requested.
         factorizations: number of factorizations.
+        fields_at: frequencies at which fields are wanted, rad/s; empty for those of the largest damping.
     """
 
     omega: Floats
@@ -64,6 +65,7 @@ class RadiationTable:
     stiffness: Floats
     infinite_frequency_added_mass: Floats | None
     factorizations: int
+    fields_at: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -44,11 +44,21 @@ class Radiation(SceneModel):
         description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit of infinite frequency"
     )
     elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam are reported")
+    fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
+        default=(),
+        description="frequencies, rad/s, at which fields of sections are written and drawn; by default where the "
+        "damping of each motion is largest",
+    )
 
     @property
     def request(self) -> RadiationRequest:
         """What the solver is asked for."""
-        return RadiationRequest(omega=self.omega, elastic_modes=self.elastic_modes)
+        return RadiationRequest(omega=self.omega, elastic_modes=self.elastic_modes, fields_at=self.fields_at)
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialize without frequencies of fields that are not given."""
+        return {key: value for key, value in write(self).items() if key != "fields_at" or value}
 
 
 class Response(SceneModel):
@@ -69,7 +79,8 @@ class Response(SceneModel):
     )
     fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
         default=(),
-        description="frequencies, rad/s, at which fields are written and drawn; by default where a motion is largest",
+        description="frequencies, rad/s, at which fields of sections are written and drawn; by default where a motion "
+        "is largest",
     )
 
     @property

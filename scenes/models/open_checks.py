@@ -156,6 +156,14 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
+        if getattr(analysis, "fields_at", ()):
+            yield problem_at(
+                ("analysis", index, "fields_at"),
+                None,
+                "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
+                "motion is largest",
+                remedy="Leave it out",
+            )
         if getattr(analysis, "hull_pressures", False):
             yield problem_at(
                 ("analysis", index, "hull_pressures"),

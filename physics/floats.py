@@ -86,12 +86,12 @@ class RigidFloat(Body):
         on_axis = start == 0.0 == self.hull.middle
         hull = self.hull.scaled(units.length, -end if on_axis else start, end)
         arms, force = np.array([units.length, units.length, 1.0]), units.density * units.gravity * units.volume
-        springs = (
-            np.reshape(self.springs, (-1, 3)) * (np.outer(arms, arms) / (force * units.length))[: len(self.springs)]
+        factors = np.outer(arms, arms) / (force * units.length)
+        springs = tuple(
+            (float(heave), float(sway), float(roll))
+            for heave, sway, roll in np.reshape(self.springs, (-1, 3)) * factors[: len(self.springs)]
         )
-        return replace(
-            self, hull=hull, hydrostatics=self.hydrostatics.scaled(units), springs=tuple(map(tuple, springs.tolist()))
-        )
+        return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units), springs=springs)
 
     def is_mirror_image_of(self, other: object) -> bool:
         """Whether it is the mirror image of another body up to rounding, wherever both float."""

@@ -121,8 +121,7 @@ def _springs(placed: RigidFloat, attachments: list[Attachment]) -> Matrix:
         # Heave, sway and roll of the point by those of the float.
         path = np.array([[1.0, 0.0, x - centre[0]], [0.0, 1.0, centre[1] - y], [0.0, 0.0, 1.0]])
         total += path.T @ np.array(one.stiffness) @ path
-    first, second, third = (tuple(row) for row in total.tolist())
-    return first, second, third
+    return tuple((float(heave), float(sway), float(roll)) for heave, sway, roll in total)
 
 
 # Cached; the key contains the time of the last change of an outline's file, which may be edited meanwhile.

@@ -116,10 +116,12 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             solver.sample(rows[: len(request.air_gaps)])
 
         def difference(one: OpenResponse, other: OpenResponse) -> float:
+            apart = relative_difference(outcome(one), outcome(other))
+            if not len(rows):
+                return apart
             motions = [each.motions[0] * each.per_elevation(RIGHTWARD)[0] for each in (one, other)]
             water = [sampled_elevations(*each, rows, RIGHTWARD) for each in zip((one, other), motions, strict=True)]
-            apart = float(np.abs(water[0] - water[1]).max(initial=0.0))
-            return max(relative_difference(outcome(one), outcome(other)), apart)
+            return max(apart, float(np.abs(water[0] - water[1]).max()))
 
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),

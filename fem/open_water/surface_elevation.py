@@ -116,5 +116,5 @@ def surface_rows(model: OpenModel, points: tuple[AirGapPoint, ...]) -> np.ndarra
         dofs = liquid.space.dofmap.list[own.cells[0]]
         rows[0, place, dofs] = potential_basis(liquid, at)[0]
         rows[1, place, dofs] = highest @ potential_basis(liquid, own.reference_points(0.5 * (nodes[:, None] + 1.0)))
-    found: np.ndarray = liquid.numbering.summed(rows.reshape(2 * len(places), -1))[:, model.pencil.free]
+    found: np.ndarray = liquid.numbering.summed(rows.reshape(2 * len(places), rows.shape[-1]))[:, model.pencil.free]
     return found

@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from hydroelastic.fem.time_domain.motion import MovingBodies, UnsolvedMotionError, WaveForces
 from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
@@ -138,6 +139,26 @@ def test_quadratic_damping_dissipates_as_its_equivalent_linear_one(memory: Radia
     assert abs(linear.steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
     assert abs(bodies(memory, quadratic=quadratic).steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
     assert abs(bodies(memory).steady(waves)[0, 0]) > 1.1 * amplitude
+
+
+@pytest.mark.parametrize("amplitude", [2.0, pytest.param(0.05, marks=pytest.mark.slow)])
+def test_a_release_with_drag_is_that_of_an_independent_integration(memory: RadiationMemory, amplitude: float) -> None:
+    """The force of the waves, K̂ξ̂′, is r′ of r″ + 2γr′ + ω₀²r = Cξ′: four states, integrated by another method."""
+    damping, quadratic, spring = 0.1, 0.7, 3.0
+
+    def rates(_time: float, state: np.ndarray) -> list[float]:
+        x, v, r, s = state
+        force = -spring * x - damping * v - quadratic * abs(v) * v - s
+        return [v, force / (1.0 + LIMIT[0, 0]), s, STRENGTH * v - 2.0 * GAMMA * s - NATURAL**2 * r]
+
+    times = np.linspace(0.0, 12.0, 25)
+    known = solve_ivp(rates, (0.0, 12.0), [amplitude, 0.0, 0.0, 0.0], "Radau", times, rtol=1e-9, atol=1e-11).y
+    still = WaveForces(omega=np.zeros(0), forces=np.zeros((0, 1), dtype=complex))
+    moving = bodies(memory, damping=damping, quadratic=quadratic, spring=spring)
+    displacement, velocity = moving.motion(still, times, 1e-7, np.array([amplitude]))
+    # The exponentials without states are left out to (1/30)³ of the last part of K̂.
+    np.testing.assert_allclose(displacement[:, 0], known[0], rtol=0.0, atol=4e-6 * amplitude)
+    np.testing.assert_allclose(velocity[:, 0], known[1], rtol=0.0, atol=8e-6 * amplitude)
 
 
 def test_what_grows_without_bound_is_refused(memory: RadiationMemory) -> None:

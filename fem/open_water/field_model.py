@@ -82,10 +82,12 @@ class Band:
     Attributes:
         lowest: smallest |ω|, positive.
         highest: largest |ω|.
+        reach: smallest and largest x between which the surface of the water is asked for, m; ``None`` for none.
     """
 
     lowest: float
     highest: float
+    reach: tuple[float, float] | None = None
 
     def wavenumbers(self, water: Tank) -> tuple[float, float]:
         """Smallest and largest wavenumber of the outgoing waves, 1/m."""
@@ -249,7 +251,7 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
         band: the frequencies.
         drawn: see `open_basin`.
     """
-    basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn)
+    basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn, reach=band.reach)
     tank = basin.tank
     length = basin.units.length
     shortest = {wave.branch: wave.wavenumber * length for wave in travelling_waves(basin.layers, band.highest)}
@@ -333,7 +335,7 @@ def _laid(
 ) -> tuple[OpenBasin, AbsorbingLayer]:
     """Return the basin and its absorbing layer."""
     wavenumbers = band.wavenumbers(water)
-    basin = open_basin(water, wavenumbers[1], drawn=drawn)
+    basin = open_basin(water, wavenumbers[1], drawn=drawn, reach=band.reach)
     length = basin.units.length
     tolerance = workable_tolerance(tolerance, basin.tank.depth)
     has_bed = any(isfinite(depth) for depth in basin.depths)

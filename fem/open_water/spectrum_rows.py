@@ -13,10 +13,10 @@ from hydroelastic.fem.open_water.beam_loads import BeamLoads
 from hydroelastic.fem.open_water.curves import Curves
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
+from hydroelastic.fem.open_water.irregular_results import PlateStatistics
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import load_errors, plate_deflection
-from hydroelastic.fem.open_water.results import PlateStatistics
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import statistics
 
@@ -44,7 +44,7 @@ def order_of_motions(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...
 
 
 def response_rows(models: list[OpenModel], request: SpectrumRequest) -> list[Row]:
-    """Motions of rigid bodies, and motions and accelerations of points."""
+    """Motions of rigid bodies, motions and accelerations of points, and last what air gaps move towards the water."""
     elastic, length = models[0].basin.tank.elastic, models[0].basin.units.length
     motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
     order, dofs = order_of_motions(models)
@@ -59,6 +59,10 @@ def response_rows(models: list[OpenModel], request: SpectrumRequest) -> list[Row
         if index not in elastic:
             rows.append(Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
         rows.append(Row(name=f"point {number} acceleration up", unit="m/s²", direction=moved[0], is_acceleration=True))
+    for number, gap in enumerate(request.air_gaps, 1):
+        up = 0.0 * motions[:1] if gap.body is None else np.hstack([_moved(one, gap.body, gap.at)[:1] for one in models])
+        # The elevation of the water is no motion of a body, and joins this part later.
+        rows.append(Row(name=f"relative elevation {number}", unit="m", direction=-up[0]))
     return rows
 
 

@@ -47,6 +47,14 @@ class RadiationMemory:
     rates: Complexes
     weights: Complexes
 
+    def scaled(self, factor: float) -> RadiationMemory:
+        """Return the memory of a multiple of H."""
+        return replace(
+            self,
+            infinite_frequency_added_mass=factor * self.infinite_frequency_added_mass,
+            weights=factor * self.weights,
+        )
+
     def impulse_response(self, times: Floats) -> Floats:
         """K at times t ≥ 0, s, shape (n,): shape (n, m, m)."""
         values: Floats = np.real(np.tensordot(np.exp(np.outer(times, self.rates)), self.weights, axes=1))

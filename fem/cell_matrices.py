@@ -24,11 +24,11 @@ from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, cell_posit
 from hydroelastic.fem.numbering import Numbering
 from hydroelastic.physics.geometry import PLANE, Geometry
 
-TRANSVERSE_QUADRATURE = 4
-"""The term m² ψq has two degrees more than ∇ψ·∇q, and 1/r is no polynomial; beside the axis ψq/r is one."""
+# The term m² ψq has two degrees more than ∇ψ·∇q, and 1/r is no polynomial; beside the axis ψq/r is one.
+_TRANSVERSE_QUADRATURE = 4
 
-# Cells whose full matrices are held at once.
-_TOGETHER = 512
+TOGETHER = 512
+"""Number of cells that are integrated at once."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,36 +59,60 @@ class CellMatrices:
         cells = owned_cells(numbering.space.mesh)
         outside, inside = len(numbering.outside), len(numbering.inside)
         laplace, extension = np.empty((len(cells), outside, outside)), np.empty((len(cells), inside, outside))
-        for first in range(0, len(cells), _TOGETHER):
-            some = slice(first, first + _TOGETHER)
+        for first in range(0, len(cells), TOGETHER):
+            some = slice(first, first + TOGETHER)
             laplace[some], extension[some] = condensed(self._full(cells[some]), outside)
         return laplace, extension
 
     def _full(self, cells: np.ndarray) -> np.ndarray:
         """All of the matrices, the unknowns before those inside."""
-        mesh, element = self.numbering.space.mesh, self.numbering.space.element.basix_element
-        order = tuple(map(int, (*self.numbering.outside, *self.numbering.inside)))
-        straight, plane = is_straight(mesh), self.geometry.kind == "plane"
-        if straight and plane:
+        weights = self.geometry.weight(cell_positions(self.numbering.space.mesh, cells, self.points)[..., 0])
+        transverse = (self.geometry.transverse / weights,) if self.geometry.transverse else ()
+        gradient = (weights,) * self.numbering.space.mesh.topology.dim
+        return self.integrals(cells, np.stack([*gradient, *transverse], axis=-1))
+
+    @property
+    def points(self) -> np.ndarray:
+        """Points of the reference cell at which `integrals` takes its weights, shape (points, dim): one of them where
+        weights are constant in each cell."""
+        element = self.numbering.space.element.basix_element
+        points = _points(element.cell_type, element.degree, self._more)[0]
+        return points[:1] if self.geometry.kind == "plane" else points
+
+    @property
+    def _more(self) -> int:
+        straight, plane = is_straight(self.numbering.space.mesh), self.geometry.kind == "plane"
+        return (0 if straight else CURVED_QUADRATURE) + (0 if plane else _TRANSVERSE_QUADRATURE)
+
+    def integrals(self, cells: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """Return ∫(Σᵢ wᵢ ∂ᵢψ ∂ᵢq + w ψq) over some cells, the unknowns before those inside.
+
+        Args:
+            cells: the cells.
+            weights: wᵢ, and w unless it is zero, at `points`, shape (cells, points, dim or dim + 1).
+
+        Returns:
+            Shape (cells, unknowns, unknowns).
+        """
+        mesh, element, more = self.numbering.space.mesh, self.numbering.space.element.basix_element, self._more
+        order, dim = tuple(map(int, (*self.numbering.outside, *self.numbering.inside))), mesh.topology.dim
+        if not more:
             reference = _reference_laplace(element.cell_type, element.degree, order)
-            jacobian = cell_jacobians(mesh, cells, np.zeros((1, mesh.topology.dim)))[:, 0]
+            jacobian = cell_jacobians(mesh, cells, np.zeros((1, dim)))[:, 0]
             inverse = np.linalg.inv(jacobian)
-            metric = np.abs(np.linalg.det(jacobian))[:, None, None] * (inverse @ inverse.transpose(0, 2, 1))
+            metric = np.abs(np.linalg.det(jacobian))[:, None, None] * (inverse * weights @ inverse.transpose(0, 2, 1))
             full = metric.reshape(len(cells), -1) @ reference
             return full.reshape(len(cells), len(order), len(order))
-        more = (0 if straight else CURVED_QUADRATURE) + (0 if plane else TRANSVERSE_QUADRATURE)
-        slopes, weights = _slopes(element.cell_type, element.degree, order, more)
+        slopes, shares = _slopes(element.cell_type, element.degree, order, more)
         points = _points(element.cell_type, element.degree, more)[0]
         jacobians = cell_jacobians(mesh, cells, points)
-        measures = weights * np.abs(np.linalg.det(jacobians))
-        factors = np.ones(1) if plane else self.geometry.weight(cell_positions(mesh, cells, points)[..., 0])
-        roots = np.sqrt(measures * factors)
-        scaled = np.linalg.inv(jacobians).transpose(0, 1, 3, 2) * roots[..., None, None]
-        gradients = (scaled @ slopes).reshape(len(cells), -1, len(order))
-        product: np.ndarray = gradients.transpose(0, 2, 1) @ gradients
-        if self.geometry.transverse:
+        measures = (shares * np.abs(np.linalg.det(jacobians)))[..., None] * weights
+        gradients = np.linalg.inv(jacobians).transpose(0, 1, 3, 2) @ slopes
+        weighted = (measures[..., :dim, None] * gradients).reshape(len(cells), -1, len(order))
+        product: np.ndarray = gradients.reshape(weighted.shape).transpose(0, 2, 1) @ weighted
+        if measures.shape[-1] > dim:
             basis = element.tabulate(0, points)[0, :, order, 0].T
-            product += basis.T @ ((measures * self.geometry.transverse / factors)[..., None] * basis)
+            product += basis.T @ (measures[..., dim:] * basis)
         return product
 
 

@@ -8,19 +8,14 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-import numpy as np
 import ufl
 from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
-from dolfinx.mesh import Mesh, meshtags
 from numpy.typing import ArrayLike
 from petsc4py import PETSc
 from ufl.domain import extract_unique_domain
 
 from hydroelastic.fem.kernel_cache import cache_folder, kernels_locked
-
-NO_ENTITIES = np.empty(0, dtype=np.int32)
-"""No cells, or no facets."""
 
 _PROCESSOR = Path("/proc/cpuinfo")
 # Time for which a process waits for another one that compiles the same kernel without locks, s; dolfinx: 10.
@@ -46,18 +41,6 @@ def compiled_expression(expression: ufl.core.expr.Expr, points: ArrayLike) -> fe
     """
     with kernels_locked(extract_unique_domain(expression).ufl_cargo().comm):
         return fem.Expression(expression, points, jit_options=_jit_options())
-
-
-def chosen_measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:
-    """Measure of chosen cells ("dx") or boundary facets ("ds")."""
-    chosen = 1
-    return ufl.Measure(
-        kind,
-        domain=mesh,
-        subdomain_id=chosen,
-        subdomain_data=meshtags(mesh, dim, entities, np.full(len(entities), chosen, dtype=np.int32)),
-        metadata={"quadrature_degree": quadrature_degree},
-    )
 
 
 def assembled(form: fem.Form) -> PETSc.Mat:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import basix
+import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
@@ -52,8 +54,17 @@ def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     return numbering.assembled([(dofs, cells)])
 
 
-def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
-    """Assemble S = ∫ψ q over named surfaces, every unknown included (collective)."""
+def surface_mass_matrix(
+    liquid: LiquidSpace, names: tuple[str, ...], weight: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
+) -> PETSc.Mat:
+    """Assemble S = ∫ψ q w over named surfaces, every unknown included (collective).
+
+    Args:
+        liquid: the space.
+        names: of the surfaces.
+        weight: returns w from cells, shape (facets,), and abscissas on their facets, shape (facets, points); by default
+            the weight of the geometry.
+    """
     more = 0 if is_straight(liquid.tank.mesh) else CURVED_QUADRATURE
     blocks = []
     for group in (group for name in names for group in facet_groups(liquid, name)):
@@ -62,7 +73,8 @@ def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Ma
         _, measures = group.normals(reference)
         places = liquid.facet_dofs(group.place)
         basis = liquid.space.element.basix_element.tabulate(0, reference)[0][:, places, 0]
-        weights = weights * liquid.geometry.weight(group.physical_points(reference)[..., 0])
-        weighed = (measures * weights)[:, :, None] * basis
+        abscissas = group.physical_points(reference)[..., 0]
+        varying = liquid.geometry.weight(abscissas) if weight is None else weight(group.cells, abscissas)
+        weighed = (measures * weights * varying)[:, :, None] * basis
         blocks.append((liquid.space.dofmap.list[group.cells][:, places], basis.T @ weighed))
     return liquid.numbering.assembled(blocks)

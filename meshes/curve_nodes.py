@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.meshes.outline import Curve, GradedPoint, Outline
 from hydroelastic.meshes.rings import RingEnds
+from hydroelastic.meshes.sign_changes import sign_changes
 from hydroelastic.meshes.size_field import Discs, SizeField
 
 # Largest radius of rings relative to the distance of the next curve or corner.
@@ -23,8 +24,6 @@ _FIRST_PARTS = 16
 _GRID = 1025
 # Directions of shorter samples, as parts of the extent, are rounding.
 _SHORTEST = 1e-6
-# Halvings of an interval down to the last bit, also where a small parameter is sought.
-_BISECTIONS = 100
 # Largest growth of elements per distance along a straight line: that of gmsh, √1.8 − 1.
 _GROWTH_ALONG = 1.8**0.5 - 1.0
 # A part of an element less than this one is no element more, as in gmsh.
@@ -132,12 +131,7 @@ def _fractions_at(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> N
 
     grid = np.linspace(0.0, 1.0, _GRID, dtype=np.float64)
     beyond = np.argmax(distances_at(grid) >= radii[:, None], axis=1)
-    below, above = grid[beyond - 1], grid[beyond]
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (below + above)
-        reached = distances_at(middle) >= radii
-        below, above = np.where(reached, below, middle), np.where(reached, middle, above)
-    return above
+    return sign_changes(lambda fractions: distances_at(fractions) - radii, grid[beyond - 1], grid[beyond])
 
 
 def bend_sources(outline: Outline, number: int, span: tuple[float, float], largest_turn: float) -> Discs:

@@ -20,14 +20,13 @@ from numpy.polynomial.chebyshev import chebder, chebval, chebvander
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.outline import Curve
+from hydroelastic.meshes.sign_changes import sign_changes
 from hydroelastic.meshes.tagged_mesh import CurvedCells, Deviation
 
 # Imported here: meshes of straight cells are made without dolfinx, to which basix belongs.
 if TYPE_CHECKING:
     import basix
 
-# Bisection steps for the intersection of the chord's normal with the curve.
-_BISECTIONS = 60
 # Smaller deviations, in parts of the largest coordinate, are rounding of the curve's points.
 _ROUNDING = 1e-15
 # Additional degrees of the polynomial that represents the exact curve between the nodes in measures of deviation.
@@ -78,15 +77,16 @@ class CurvedEdges:
         starts, chords = self.points[:-1, None], self.chords[:, None]
         squares = (chords**2).sum(axis=2)
         shape = (len(self.points) - 1, len(fractions))
-        below = np.broadcast_to(self.parameters[:-1, None], shape)
-        above = np.broadcast_to(self.parameters[1:, None], shape)
-        for _ in range(_BISECTIONS):
-            middle = 0.5 * (below + above)
-            away = self.curve.at(middle.ravel()).reshape(*shape, 2) - starts
-            beyond = (away * chords).sum(axis=2) >= fractions * squares
-            below, above = np.where(beyond, below, middle), np.where(beyond, middle, above)
-        away = self.curve.at(above.ravel()).reshape(*shape, 2) - starts
-        heights: NDArray[np.float64] = (away * self.normals[:, None]).sum(axis=2)
+
+        def away(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+            return self.curve.at(parameters.ravel()).reshape(*shape, 2) - starts
+
+        found = sign_changes(
+            lambda parameters: (away(parameters) * chords).sum(axis=2) - fractions * squares,
+            np.broadcast_to(self.parameters[:-1, None], shape),
+            np.broadcast_to(self.parameters[1:, None], shape),
+        )
+        heights: NDArray[np.float64] = (away(found) * self.normals[:, None]).sum(axis=2)
         return heights
 
 

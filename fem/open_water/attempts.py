@@ -37,9 +37,10 @@ def best_in_basin(
     """
 
     def solved(resolution: Resolution) -> Attempt[Result]:
-        attempt = solve(resolution)
-        release_memory()
-        return attempt
+        if resolution is not first:
+            # Of the attempt before; that of the last one is released after the analysis.
+            release_memory()
+        return solve(resolution)
 
     return best_attempt(tank, tolerance, solved, first, rounds=_MOST_ATTEMPTS, infinite_frequency=infinite_frequency)
 

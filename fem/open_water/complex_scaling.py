@@ -16,18 +16,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import basix
-import basix.ufl
 import numpy as np
-import ufl
-from dolfinx import fem
 from dolfinx.mesh import Mesh
 from petsc4py import PETSc
 
-from hydroelastic.fem.cell_matrices import TRANSVERSE_QUADRATURE
-from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, cell_positions, is_straight, owned_cells
-from hydroelastic.fem.kernels import NO_ENTITIES, assembled, chosen_measure, compiled_form
+from hydroelastic.fem.cell_matrices import TOGETHER
+from hydroelastic.fem.cells import cell_corners, cell_positions, owned_cells
 from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.liquid_matrices import surface_mass_matrix
 
 # Step of the derivatives with respect to α, rad: their error of fourth order is that of rounding.
 _STEP = 5e-4
@@ -73,113 +69,57 @@ class ComplexMatrix:
 
 def scaled_laplace(liquid: LiquidSpace, scaling: ComplexScaling, *, derivative: bool = False) -> ComplexMatrix:
     """Assemble A, or its derivative with respect to α, on all unknowns, ρ included (collective)."""
-    turned = scaling.turned(liquid.tank.mesh).astype(float)
+    mesh, geometry = liquid.tank.mesh, liquid.geometry
+    cells = owned_cells(mesh)
+    turned = scaling.turned(mesh)[cells].astype(float)
     det = turned.sum(axis=1, keepdims=True)
     # Exponents of s in the terms ∂₁ψ∂₁q, ∂₂ψ∂₂q and ψq, shape (cells, 1, terms).
-    exponents = np.hstack([det - 2.0 * turned, det])[:, None]
-    densities, geometry = _densities(liquid)[:, None, None], liquid.geometry
-    abscissas = cell_positions(liquid.tank.mesh, np.arange(len(turned)), _points(liquid))[..., 0]
+    exponents = np.hstack([det - 2.0 * turned, *([det] if geometry.transverse else [])])[:, None]
+    densities = liquid.cell_densities()[:, None, None]
+    abscissas = cell_positions(mesh, cells, liquid.cells.points)[..., 0]
 
     def values(s: complex) -> np.ndarray:
-        powers = s**exponents * np.array([1.0, 1.0, geometry.transverse])
-        if geometry.is_revolved:
-            radii = np.where(turned[:, :1] > 0.0, _turned(abscissas, scaling.high[0], s), abscissas)
-            powers = powers * np.stack([radii, radii, 1.0 / radii], axis=-1)
-        return np.asarray(densities * powers)
+        weights = geometry.weight(np.where(turned[:, :1] > 0.0, _turned(abscissas, scaling.high[0], s), abscissas))
+        transverse = (geometry.transverse / weights,) if geometry.transverse else ()
+        return np.asarray(densities * s**exponents * np.stack([weights, weights, *transverse], axis=-1))
 
     weights = scaling.weights(values, derivative=derivative)
-    return _both_parts(liquid, owned_cells(liquid.tank.mesh), weights, np.zeros((len(turned), 2)), NO_ENTITIES)
+
+    def part(chosen: np.ndarray, values: np.ndarray) -> PETSc.Mat:
+        some = [slice(first, first + TOGETHER) for first in range(0, len(chosen), TOGETHER)]
+        dofs = liquid.space.dofmap.list[chosen]
+        return liquid.numbering.assembled(
+            [(dofs[few], liquid.cells.integrals(chosen[few], values[few])) for few in some]
+        )
+
+    beyond = np.flatnonzero(det[:, 0] > 0.0)
+    return ComplexMatrix(real=part(cells, weights.real), imaginary=part(beyond, weights[beyond].imag))
 
 
 def scaled_surface_mass(
     liquid: LiquidSpace, scaling: ComplexScaling, name: str, *, derivative: bool = False
 ) -> ComplexMatrix:
     """Assemble S over a named horizontal surface, or its derivative with respect to α, on all unknowns (collective)."""
-    along = scaling.turned(liquid.tank.mesh)[:, 0].astype(float)
+    turned = scaling.turned(liquid.tank.mesh)[:, 0].astype(float)
 
-    def values(s: complex) -> np.ndarray:
-        """The weight as a constant and a multiple of x in each cell."""
-        power = s**along
-        if not liquid.geometry.is_revolved:
-            return np.stack([power, np.zeros_like(power)], axis=1)
-        return np.stack([power * (1.0 - power) * np.where(along, scaling.high[0], 0.0), power**2], axis=1)
+    def weights(cells: np.ndarray, abscissas: np.ndarray) -> np.ndarray:
+        along = turned[cells, None]
 
-    weights = scaling.weights(values, derivative=derivative)
-    return _both_parts(liquid, NO_ENTITIES, np.zeros((len(along), 1, 3)), weights, liquid.tank.facets(name))
+        def values(s: complex) -> np.ndarray:
+            radii = np.where(along > 0.0, _turned(abscissas, scaling.high[0], s), abscissas)
+            return np.asarray(s**along * liquid.geometry.weight(radii))
+
+        return scaling.weights(values, derivative=derivative)
+
+    return ComplexMatrix(
+        real=surface_mass_matrix(liquid, (name,), lambda *where: weights(*where).real),
+        imaginary=surface_mass_matrix(liquid, (name,), lambda *where: weights(*where).imag),
+    )
 
 
 def _turned(abscissas: np.ndarray, edge: float, s: complex) -> np.ndarray:
     """x̃ at abscissas beyond the edge of the basin."""
     return np.asarray(edge + s * (abscissas - edge))
-
-
-def _densities(liquid: LiquidSpace) -> np.ndarray:
-    """ρ of each cell of this process."""
-    cells = liquid.space.dofmap.list
-    return np.array([layer.density for layer in liquid.layers])[liquid.layer_of[cells[:, 0]]]
-
-
-def _both_parts(
-    liquid: LiquidSpace, cells: np.ndarray, terms: np.ndarray, surface: np.ndarray, facets: np.ndarray
-) -> ComplexMatrix:
-    parts = (
-        assembled(_weighted_form(liquid, cells, facets, part(terms), part(surface))) for part in (np.real, np.imag)
-    )
-    real, imaginary = parts
-    return ComplexMatrix(real=real, imaginary=imaginary)
-
-
-def compile_scaled_form(liquid: LiquidSpace) -> None:
-    """Compile the form of a space on rank 0, unless the cache of dolfinx has it (collective)."""
-    count = len(liquid.space.dofmap.list)
-    _weighted_form(liquid, NO_ENTITIES, NO_ENTITIES, np.zeros((count, 1, 3)), np.zeros((count, 2)))
-
-
-def _quadrature_degree(liquid: LiquidSpace) -> int:
-    more = 0 if is_straight(liquid.tank.mesh) else CURVED_QUADRATURE
-    return 2 * liquid.degree - 2 + more + (0 if liquid.geometry.kind == "plane" else TRANSVERSE_QUADRATURE)
-
-
-def _points(liquid: LiquidSpace) -> np.ndarray:
-    """Quadrature points of the reference cell, shape (points, dim); one of them where weights are those of cells."""
-    points, _ = basix.make_quadrature(liquid.space.element.basix_element.cell_type, _quadrature_degree(liquid))
-    return points if liquid.geometry.is_revolved else points[:1]
-
-
-def _weighted_form(
-    liquid: LiquidSpace, cells: np.ndarray, facets: np.ndarray, terms: np.ndarray, surface: np.ndarray
-) -> fem.Form:
-    """∫(w₁ ∂₁ψ ∂₁q + w₂ ∂₂ψ ∂₂q + w₃ ψq) over some cells + ∫(v₀ + v₁ x) ψq over some facets.
-
-    Args:
-        liquid: space of ψ.
-        cells: the cells.
-        facets: the facets.
-        terms: w of each cell, or at its quadrature points, shape (cells, points, 3). In a plane there is no w₃.
-        surface: v of each cell, shape (cells, 2); v₁ is that of revolution only.
-    """
-    mesh, space, geometry = liquid.tank.mesh, liquid.space, liquid.geometry
-    degree = _quadrature_degree(liquid)
-    constants = fem.functionspace(mesh, ("DG", 0))
-    varying = constants
-    if geometry.is_revolved:
-        varying = fem.functionspace(mesh, basix.ufl.quadrature_element(mesh.topology.cell_name(), degree=degree))
-
-    def weight(where: fem.FunctionSpace, values: np.ndarray) -> fem.Function:
-        function = fem.Function(where)
-        function.x.array[where.dofmap.list] = values
-        return function
-
-    potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
-    dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, degree)
-    ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, degree + 2)
-    energy = sum(weight(varying, terms[..., axis]) * potential.dx(axis) * test.dx(axis) for axis in range(2))
-    trace = weight(constants, surface[:, :1])
-    if geometry.kind != "plane":
-        energy += weight(varying, terms[..., 2]) * potential * test
-    if geometry.is_revolved:
-        trace += weight(constants, surface[:, 1:]) * ufl.SpatialCoordinate(mesh)[0]
-    return compiled_form(energy * dx + trace * potential * test * ds)
 
 
 def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ from hydroelastic.fem.open_water.basin import (
     open_basin,
     sized_absorbing_layer,
 )
-from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
+from hydroelastic.fem.open_water.complex_scaling import ComplexScaling
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.outside import outside_of
@@ -295,8 +295,6 @@ def open_model(
     with watch.stage("mesh"):
         mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
-    with watch.stage("forms"):
-        compile_scaled_form(liquid)
     low, high = basin.bounds
     with watch.stage("assemble"):
         pencil = build_open_pencil(

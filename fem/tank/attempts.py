@@ -58,12 +58,12 @@ def best_attempt(
         remesh: whether new meshes may be made; a user mesh is kept.
     """
     tolerance = workable_tolerance(tolerance, tank.depth)
-    exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
 
     def finer(resolution: Resolution, attempt: Attempt[Result]) -> Resolution | None:
         # A finer model does not find missing quantities if the errors are small already.
         if attempt.error <= tolerance:
             return None
+        exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
         return refined(resolution, attempt.causes, tolerance, exponent=exponent, remesh=remesh)
 
     def estimate(attempt: Attempt[Result]) -> ErrorEstimate:

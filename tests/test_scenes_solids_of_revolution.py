@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import pi, tanh
+import json
+from math import pi, sqrt, tanh
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from hydroelastic.scenes.round_tank.run import run_round_tank
 from hydroelastic.scenes.tank.check_tables import hydrostatics_table
 from hydroelastic.scenes.tank.run import run_tank
 
+SHIPPED = Path(__file__).parent.parent / "results" / "shipped"
 CYLINDER: dict[str, Any] = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 1.0}
 WATER: list[dict[str, Any]] = [{"density": 1000.0, "depth": 10.0}]
 
@@ -217,6 +219,19 @@ def test_messages_name_the_keys_of_the_body_at_hand(tmp_path: Path) -> None:
     section = 'kind = "float", shape = "ellipse", half_width = 1.0, half_height = 1.0'
     assert "half_width, half_height, tail" in said(tmp_path, f"{section}, colour = 1.0")
     assert '"beam" or "varying_beam" or "float" or "plate". ' in said(tmp_path, 'kind = "boat"')
+
+
+def test_the_shipped_spar_heaves_with_the_water_of_its_plate() -> None:
+    """Added mass of a disc with a column upon it, as naval architects estimate it: L. Tao et al., J. Sound Vib. 302."""
+    stored = json.loads((SHIPPED / "spar" / "summary.json").read_text(encoding="utf-8"))
+    disc, column, density = 20.0, 8.0, 1025.0
+    z = sqrt(disc**2 - column**2) / pi
+    added = density / 12.0 * (2.0 * disc**3 + 3.0 * pi * (disc**2 - column**2) * z - (pi * z) ** 3)
+    heave = complex(*stored["resonance"][0]["omega"][0])
+    mass = density * pi * (40.0 * 4.0**2 + 10.0**2)
+    stiffness = density * 9.81 * pi * 4.0**2
+    # The estimate is of a thin plate far from the surface; the radiated waves are weak, |ω| that of the undamped spar.
+    assert abs(heave) == pytest.approx(sqrt(stiffness / (mass + added)), rel=0.03)
 
 
 def test_a_float_on_the_axis_over_a_sloping_bed_is_of_three_dimensions() -> None:

@@ -51,7 +51,7 @@ FEW = {
     "ice_floe": "*response_1.png",
     "point_absorber": "*.png",
     "ship_tank": "mode_001.png",
-    "spar": "response_1.png",
+    "spar": "re*.png",
     "spherical_tank": "mode_001.png",
 }
 SMALL = PictureOptions(width=400, dpi=50)

@@ -122,11 +122,13 @@ def _densities(liquid: LiquidSpace) -> np.ndarray:
 def _both_parts(
     liquid: LiquidSpace, cells: np.ndarray, terms: np.ndarray, surface: np.ndarray, facets: np.ndarray
 ) -> ComplexMatrix:
-    parts = (
-        assembled(_weighted_form(liquid, cells, facets, part(terms), part(surface))) for part in (np.real, np.imag)
-    )
-    real, imaginary = parts
-    return ComplexMatrix(real=real, imaginary=imaginary)
+    form, weights = _weighted_form(liquid, cells, facets, terms, surface)
+    matrices = []
+    for part in (np.real, np.imag):
+        for function, values in weights:
+            function.x.array[function.function_space.dofmap.list] = part(values)
+        matrices.append(assembled(form))
+    return ComplexMatrix(real=matrices[0], imaginary=matrices[1])
 
 
 def compile_scaled_form(liquid: LiquidSpace) -> None:
@@ -148,8 +150,9 @@ def _points(liquid: LiquidSpace) -> np.ndarray:
 
 def _weighted_form(
     liquid: LiquidSpace, cells: np.ndarray, facets: np.ndarray, terms: np.ndarray, surface: np.ndarray
-) -> fem.Form:
-    """∫(w₁ ∂₁ψ ∂₁q + w₂ ∂₂ψ ∂₂q + w₃ ψq) over some cells + ∫(v₀ + v₁ x) ψq over some facets.
+) -> tuple[fem.Form, list[tuple[fem.Function, np.ndarray]]]:
+    """Return the form ∫(w₁ ∂₁ψ ∂₁q + w₂ ∂₂ψ ∂₂q + w₃ ψq) over some cells + ∫(v₀ + v₁ x) ψq over some facets, and the
+    functions in it that stand for w and v, each with its complex values on the unknowns of each cell.
 
     Args:
         liquid: space of ψ.
@@ -165,9 +168,11 @@ def _weighted_form(
     if geometry.is_revolved:
         varying = fem.functionspace(mesh, basix.ufl.quadrature_element(mesh.topology.cell_name(), degree=degree))
 
+    weights = []
+
     def weight(where: fem.FunctionSpace, values: np.ndarray) -> fem.Function:
         function = fem.Function(where)
-        function.x.array[where.dofmap.list] = values
+        weights.append((function, values))
         return function
 
     potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
@@ -179,7 +184,7 @@ def _weighted_form(
         energy += weight(varying, terms[..., 2]) * potential * test
     if geometry.is_revolved:
         trace += weight(constants, surface[:, 1:]) * ufl.SpatialCoordinate(mesh)[0]
-    return compiled_form(energy * dx + trace * potential * test * ds)
+    return compiled_form(energy * dx + trace * potential * test * ds), weights
 
 
 def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:

@@ -71,9 +71,9 @@ NO_WATER = 1e-6
 # of opposite phase cancel. Measured on circles at Ka from 0.05 to 10 at three tolerances: the energy error is 9 to 140
 # times the error of H.
 LAYER_WEIGHT = 0.2
-# Innermost rings over those of tanks: waves move bodies by up to several times their height, and what that leaves at the
-# corners of hulls is relative to the waves. Measured on a barge at tolerances from 1e-3 to 1e-5, at its resonance too:
-# 0.7 to 2 tolerances with those of tanks, a twelfth of it with these.
+# Innermost rings at the corners of hulls over those of tanks: errors there are relative to the waves, which move
+# bodies by up to several times their height. Measured on a barge at tolerances from 1e-3 to 1e-5, its resonance
+# included: 0.7 to 2 tolerances with those of tanks, a twelfth of it with these.
 _TIPS = 0.25
 # An upper liquid deeper than this, in radians of an interface wave, decouples its surface from that wave.
 _DECOUPLED = 20.0

@@ -63,16 +63,10 @@ class OpenFrequency:
         """λ∫ρφ φᵢ for each incident wave, shape (waves, body unknowns)."""
         return self.squared * self.incidence.pressures
 
-    def radiated_amplitudes(self) -> np.ndarray:
-        """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns) (collective).
-
-        By integrals over the bodies' surfaces, with which Haskind's relation holds identically.
-        """
-        fluxes = self.incidence.pressures - self.model.pencil.products(self.incidence.fluxes, self.radiated)
-        return self.incidence.amplitudes(fluxes)
-
     def observed_amplitudes(self) -> np.ndarray:
-        """The same from the field at some distance from the bodies, by `far_field` (collective)."""
+        """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns), from the field at some
+        distance from the bodies by `far_field`, not by their surfaces, with which Haskind's relation holds identically
+        (collective)."""
         fluxes = self.model.far_field.fluxes(self.radiated, [plane.field for plane in self.incidence.planes])
         return self.incidence.amplitudes(fluxes)
 

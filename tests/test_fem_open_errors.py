@@ -113,6 +113,20 @@ def test_errors_of_loads_are_not_too_small_and_not_far_too_large(name: str) -> N
             assert 1.0 < told / off < MOST, (load, omega[row])
 
 
+@pytest.mark.slow_but("inf")
+@pytest.mark.parametrize("depth", [inf, 12.0])
+def test_errors_of_pressures_in_long_waves_are_not_far_too_large(depth: float) -> None:
+    body = {"kind": "float", "shape": "wedge", "half_width": 5.0, "half_height": 3.0, "motions": ["heave", "sway"]}
+    asked = {"kind": "response", "omega": [0.1, 0.4], "hull_pressures": True}
+    reference, found = (solved(body, asked, one, depth=depth).response[0] for one in (1e-4, 1e-2))
+    (hull,), (exact,) = found.hulls, reference.hulls
+    here, there = np.nonzero(np.linalg.norm(hull.points[:, None] - exact.points[None], axis=2) < 1e-9)
+    for row in range(2):
+        # The waves far away, of the same error, would be 340 times it.
+        pairs = hull.pressure[row, :, here], exact.pressure[row, :, there]
+        assert 1.0 < ratio(hull.pressure_error[row], *pairs) < 15.0
+
+
 @pytest.mark.slow
 def test_errors_of_drift_and_pressures_are_not_too_small_and_not_far_too_large() -> None:
     body = BARGE | {"half_width": 10.0, "half_height": 4.0, "draught": 4.0} if "half_width" in BARGE else BARGE

@@ -126,8 +126,8 @@ def test_errors_in_long_waves_and_in_reflected_ones_are_not_far_too_large(depth:
         # In long waves errors of the waves far away are 66 times this one.
         pairs = hull.pressure[row, :, here], exact.pressure[row, :, there]
         assert 1.0 < ratio(hull.pressure_error[row], *pairs) < 15.0
-    # At 1.1 rad/s 0.5 % of the power is transmitted: by the error of R the estimate would be 14 times as large.
-    assert 1.0 < ratio(found.drift_error[1], found.drift_force[1], reference.drift_force[1]) < MOST
+    # At 1.1 rad/s 0.5 % of the power is transmitted: by the error of R the estimate would be ten times as large.
+    assert 1.0 < ratio(found.drift_error[1], found.drift_force[1], reference.drift_force[1]) < 15.0
 
 
 @pytest.mark.slow

@@ -52,6 +52,17 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     use.peak = sum(told) if len(told) == len(increases) else None
 
 
+@contextmanager
+def sparing_known_objects() -> Iterator[None]:
+    """Let `release_memory` look only at what a block of code makes: to look at all that was imported takes longer than
+    to solve many a scene."""
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
+
+
 def release_memory() -> None:
     """Give freed memory back to the operating system: an allocator keeps it, and later allocations seldom fit."""
     gc.collect()

@@ -176,7 +176,7 @@ def _problem(detail: Any, root: type[BaseModel]) -> Problem:
         key=key,
         value=shown_value(value),
         wrong=_wrong(detail, value, place),
-        allowed=_allowed(place),
+        allowed=_allowed(place, of_list=detail["type"] == "tuple_type"),
         remedy=_remedy(detail["type"], place, value),
     )
 
@@ -275,21 +275,21 @@ def _remedy(kind: str, place: _Place, value: object) -> str:
     return ""
 
 
-def _allowed(place: _Place) -> str:
-    """Describe the values of a field: type and range, then its description."""
+def _allowed(place: _Place, *, of_list: bool = False) -> str:
+    """Describe the values of a field, or of the lists in its list: type and range, then its description."""
     field = place.field
     if field is None:
         return ""
     annotation, limits = _value_type(field)
     range_of = next((say for matches, say in _RANGES if matches(annotation)), None)
     values = range_of(annotation, limits) if range_of is not None else ""
-    if values and isinstance(place.location[-1], str) and _is_list(field.annotation):
+    if values and (of_list or isinstance(place.location[-1], str)) and _is_list(field.annotation):
         values = f"a list of {values}" if get_origin(annotation) is Literal else "a list"
     return " – ".join(text for text in (values, (field.description or "").rstrip(".")) if text)
 
 
 def _is_list(annotation: Any) -> bool:
-    return get_origin(annotation) is tuple or any(get_origin(part) is tuple for part in get_args(annotation))
+    return get_origin(annotation) is tuple or any(map(_is_list, get_args(annotation)))
 
 
 def _value_type(field: FieldInfo) -> tuple[Any, list[Any]]:

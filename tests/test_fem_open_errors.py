@@ -113,6 +113,23 @@ def test_errors_of_loads_are_not_too_small_and_not_far_too_large(name: str) -> N
             assert 1.0 < told / off < MOST, (load, omega[row])
 
 
+@pytest.mark.slow_but("inf")
+@pytest.mark.parametrize("depth", [inf, 30.0])
+def test_errors_in_long_waves_and_in_reflected_ones_are_not_far_too_large(depth: float) -> None:
+    barge = {"kind": "float", "shape": "rectangle", "half_width": 10.0, "half_height": 4.0, "draught": 4.0}
+    barge |= {"vertical_centre_of_gravity": 1.0, "radius_of_gyration": 7.0, "motions": ["heave", "sway", "roll"]}
+    asked = {"kind": "response", "omega": [0.1, 1.1], "hull_pressures": True}
+    reference, found = (solved(barge, asked, one, depth=depth).response[0] for one in (1e-4, 1e-2))
+    (hull,), (exact,) = found.hulls, reference.hulls
+    here, there = np.nonzero(np.linalg.norm(hull.points[:, None] - exact.points[None], axis=2) < 1e-8)
+    for row in range(2):
+        # In long waves errors of the waves far away are 66 times this one.
+        pairs = hull.pressure[row, :, here], exact.pressure[row, :, there]
+        assert 1.0 < ratio(hull.pressure_error[row], *pairs) < 15.0
+    # At 1.1 rad/s 0.5 % of the power is transmitted: by the error of R the estimate would be ten times as large.
+    assert 1.0 < ratio(found.drift_error[1], found.drift_force[1], reference.drift_force[1]) < 15.0
+
+
 @pytest.mark.slow
 def test_errors_of_drift_and_pressures_are_not_too_small_and_not_far_too_large() -> None:
     body = BARGE | {"half_width": 10.0, "half_height": 4.0, "draught": 4.0} if "half_width" in BARGE else BARGE

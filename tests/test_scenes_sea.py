@@ -1,5 +1,6 @@
 """Scenes of the sea: open water without a drawn length, and floats by draught, centre of gravity and inertia."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,9 @@ BARGE: dict[str, Any] = {
     "half_height": 0.5,
     "motions": ["heave", "sway", "roll"],
 }
+SPAR = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 2.0, "motions": ["pitch"]}
+DISC = {"kind": "plate", "outline": "disc", "radius": 5.0, "flexural_rigidity": 1e6, "mass_per_area": 100.0}
+SEAWAY = {"kind": "spectrum", "significant_height": 1.0, "peak_period": 5.0}
 
 
 def sea(body: dict[str, Any], **keys: Any) -> SeaScene:
@@ -83,6 +87,24 @@ def test_draught_centre_of_gravity_and_inertia_stand_for_mass_height_and_radius(
 def test_contradictions_are_refused(keys: dict[str, float], message: str) -> None:
     with pytest.raises(SceneError, match=message):
         sea(BARGE | keys)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"liquid": [{"density": 1000.0}]}, "depth of the layer, m; inf in open water alone"),
+        ({"body": [BARGE | {"vertical_centre_of_gravity": 3.0}]}, r"3 m above the still level.*a vertical_centre_of"),
+        ({"body": [SPAR]}, r"above the still level.*a vertical_centre_of_gravity of at most -0.875 m"),
+        ({"attachment": [{"stiffness": [[1.0, 2.0, 3.0], 4.0]}]}, "entry 2 = 4.0: it is not a list. Allowed: a list"),
+        ({"body": [DISC], "attachment": [{"at": [0.0, 0.0], "stiffness": [1.0, 1.0, 0.0]}]}, "a plate does not surge"),
+        ({"body": [DISC], "analysis": [{"kind": "decay", "displacement": 1.0, "times": [1.0]}]}, "is a plate, and"),
+        ({"body": [DISC], "analysis": [SEAWAY | {"points": [{"at": [9.0, 0.0]}]}]}, "not lie on the plate"),
+    ],
+)
+def test_messages_tell_what_the_sea_has(keys: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message) as error:
+        SeaScene(**{"liquid": WATER, "body": [BARGE]} | keys)
+    assert not re.search(r"\btank\b|\bends\b|\bwalls\b", str(error.value))
 
 
 def test_what_is_drawn_contains_the_bodies_unless_it_is_given() -> None:

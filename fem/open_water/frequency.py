@@ -63,16 +63,10 @@ class OpenFrequency:
         """λ∫ρφ φᵢ for each incident wave, shape (waves, body unknowns)."""
         return self.squared * self.incidence.pressures
 
-    def radiated_amplitudes(self) -> np.ndarray:
-        """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns) (collective).
-
-        By integrals over the bodies' surfaces, with which Haskind's relation holds identically.
-        """
-        fluxes = self.incidence.pressures - self.model.pencil.products(self.incidence.fluxes, self.radiated)
-        return self.incidence.amplitudes(fluxes)
-
     def observed_amplitudes(self) -> np.ndarray:
-        """The same from the field at some distance from the bodies, by `far_field` (collective)."""
+        """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns), from the field at some
+        distance from the bodies by `far_field`, not by their surfaces, with which Haskind's relation holds identically
+        (collective)."""
         fluxes = self.model.far_field.fluxes(self.radiated, [plane.field for plane in self.incidence.planes])
         return self.incidence.amplitudes(fluxes)
 
@@ -240,8 +234,9 @@ class OpenResponse:
     def drift_error(self, error: float, motions: np.ndarray | None = None) -> np.ndarray:
         """Return the error of the drift force, shape (incident,).
 
-        With the incident power for that of all outgoing waves, F = Σ (k ∓ kⱼ) Pⱼ|cⱼ|²/2ω + (k/2ω)(power lost); the
-        transmitted wave of one surface does not count, and R has the relative error of R².
+        With κ times the balance of power added, F = (λ/2) [(k − κ) P + Σ (κ ∓ kⱼ) Pⱼ|cⱼ|² + κ (power lost)] of incident
+        power P. For one surface κ = k leaves the reflected wave alone, whose R has the relative error of R², κ = −k the
+        transmitted one: the smaller error holds. Where nearly all is reflected F hardly changes with R.
 
         Args:
             error: of the amplitudes of outgoing waves, relative to the incident one.
@@ -253,8 +248,8 @@ class OpenResponse:
         incoming = powers[self.incident]
         amplitudes = np.abs(self.outgoing(motions))
         own, other = self._wavenumbers[self.incident], self._wavenumbers[:, None]
-        arms = np.abs(own - np.outer(towards, towards[self.incident]) * other)
-        waves = (2.0 * arms * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0)
+        arms = [np.abs(kappa - np.outer(towards, towards[self.incident]) * other) for kappa in (own, -own)]
+        waves = 2.0 * np.min([(arm * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0) for arm in arms], 0)
         lost = np.abs(incoming - powers @ amplitudes**2)
         total: np.ndarray = (waves + 2.0 * own * lost) * error + own * incoming * np.abs(self.energy_residual())
         return 0.5 * self.squared.real * total

@@ -11,7 +11,22 @@ from hydroelastic.physics.dofs import Dof
 
 
 @dataclass(frozen=True, kw_only=True)
-class IrregularResponse:
+class ErrorsByCause:
+    """Parts of the relative errors of significant amplitudes; of several the largest.
+
+    Attributes:
+        sampling_error: by the sampling of transfer functions.
+        truncation_error: by waves beyond the frequencies.
+        transfer_error: by the errors of the transfer functions.
+    """
+
+    sampling_error: float
+    truncation_error: float
+    transfer_error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class IrregularResponse(ErrorsByCause):
     """Statistics of one response to irregular waves; amplitudes have its unit.
 
     Attributes:
@@ -21,9 +36,6 @@ class IrregularResponse:
         largest_amplitude: most probable largest amplitude in the duration.
         zero_crossing_period: s.
         relative_error: estimated relative error of the significant amplitude by all causes.
-        sampling_error: by the sampling of the transfer function.
-        truncation_error: by waves beyond the frequencies.
-        transfer_error: by the errors of the transfer function.
     """
 
     quantity: str
@@ -32,9 +44,6 @@ class IrregularResponse:
     largest_amplitude: float
     zero_crossing_period: float
     relative_error: float
-    sampling_error: float
-    truncation_error: float
-    transfer_error: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +72,7 @@ class AirGap:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlateStatistics:
+class PlateStatistics(ErrorsByCause):
     """Statistics along a beam in irregular waves, per metre of width. Each is of shape (p,).
 
     Attributes:
@@ -76,9 +85,6 @@ class PlateStatistics:
         largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
         relative_errors: estimated errors of the significant "deflection", "bending_moment" and "shear_force" anywhere,
             relative to the largest along the beam.
-        sampling_error: the largest part of these by the sampling of transfer functions.
-        truncation_error: by waves beyond the frequencies.
-        transfer_error: by the errors of the transfer functions.
     """
 
     body: int
@@ -89,9 +95,6 @@ class PlateStatistics:
     significant_shear_force: Floats
     largest_stress: Floats | None
     relative_errors: dict[str, float]
-    sampling_error: float
-    truncation_error: float
-    transfer_error: float
 
     @property
     def relative_error(self) -> float:

@@ -41,6 +41,7 @@ class OpenPencil:
         liquid: the space of ψ.
         bodies: the bodies, in the order of their unknowns.
         free: local indices of the owned unknowns of ψ where ψ = 0 is not prescribed, shape (own free unknowns,).
+        wet: places among these of the unknowns on the surfaces of bodies, where loads act, shape (wet,).
         laplace: A on the free unknowns.
         mass: M on the free unknowns.
         loads: F, own entries of the free unknowns, shape (body unknowns, own free unknowns).
@@ -50,6 +51,7 @@ class OpenPencil:
     liquid: LiquidSpace
     bodies: tuple[Body, ...]
     free: np.ndarray
+    wet: np.ndarray
     laplace: ComplexMatrix
     mass: ComplexMatrix
     loads: np.ndarray
@@ -105,6 +107,7 @@ def build_open_pencil(
         liquid=liquid,
         bodies=bodies,
         free=free,
+        wet=np.flatnonzero(np.isin(free, liquid.surface_dofs(tuple(body.surface for body in bodies)))),
         laplace=laplace,
         mass=mass,
         loads=np.vstack(loads) if loads else np.zeros((0, len(free))),

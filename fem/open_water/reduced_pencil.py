@@ -27,17 +27,23 @@ _NO_RESPONSE = 1e-8
 
 @dataclass(frozen=True, kw_only=True)
 class LoadProducts:
-    """Products of loads f with each other and with a basis V.
+    """Products of loads f on the surfaces of bodies with each other and with a basis V.
 
     Attributes:
-        projected: fᵀV, shape (loads, basis).
+        loads: f on `OpenPencil.wet`, shape (loads, wet).
+        by_basis: fᵀV, and the products of D⁻¹AV̄ and D⁻¹MV̄ with f, shape (3, basis, loads).
         gram: f̄D⁻¹f, shape (loads, loads).
-        images: products of D⁻¹AV̄ and D⁻¹MV̄ with f, shape (2, basis, loads).
     """
 
-    projected: np.ndarray
+    loads: np.ndarray
+    by_basis: np.ndarray
     gram: np.ndarray
-    images: np.ndarray
+
+    @property
+    def projected(self) -> np.ndarray:
+        """Vᵀf of each load, shape (loads, basis)."""
+        projected: np.ndarray = self.by_basis[0].T
+        return projected
 
 
 class ReducedPencil:
@@ -45,26 +51,33 @@ class ReducedPencil:
 
     Args:
         pencil: the problem.
+
+    Attributes:
+        size: number of basis vectors.
     """
 
     def __init__(self, pencil: OpenPencil) -> None:
         """Start with an empty basis."""
-        own = len(pencil.free)
+        self.size = 0
         self._pencil = pencil
-        self._basis: np.ndarray = np.zeros((0, own), dtype=complex)
+        # V, AV and MV, with room for more vectors, and on the surfaces of bodies V, D⁻¹AV̄ and D⁻¹MV̄.
+        self._stored = np.zeros((3, 0, len(pencil.free)), dtype=complex)
+        self._at_bodies = np.zeros((3, 0, len(pencil.wet)), dtype=complex)
         diagonal = pencil.laplace.real.getDiagonal().array_r + 1j * pencil.laplace.imaginary.getDiagonal().array_r
-        self._weights = 1.0 / np.sqrt(np.abs(diagonal))
-        # Products AV and MV, and the projections VᵀAV and VᵀMV.
-        self._images: list[np.ndarray] = [self._basis, self._basis]
-        self._projected: list[np.ndarray] = [np.zeros((0, 0), dtype=complex)] * 2
-        # D^{-1/2}AV and D^{-1/2}MV, and their products with each other, VᵀĀD⁻¹AV …, shape (2, basis, 2, basis).
-        self._weighed = np.zeros((2, 0, own), dtype=complex)
+        self._weights = 1.0 / np.abs(diagonal)
+        # VᵀAV and VᵀMV, and VᵀĀD⁻¹AV …, shape (2, basis, 2, basis).
+        self._projected = np.zeros((2, 0, 0), dtype=complex)
         self._gram = np.zeros((2, 0, 2, 0), dtype=complex)
 
     @property
-    def size(self) -> int:
-        """Number of basis vectors."""
-        return len(self._basis)
+    def _basis(self) -> np.ndarray:
+        vectors: np.ndarray = self._stored[0, : self.size]
+        return vectors
+
+    @property
+    def _images(self) -> np.ndarray:
+        images: np.ndarray = self._stored[1:, : self.size]
+        return images
 
     def add(self, eigenvalue: complex, potentials: np.ndarray, loads: np.ndarray) -> None:
         """Add solutions of (A − λM)ψ = f to the basis (collective).
@@ -78,32 +91,49 @@ class ReducedPencil:
             loads: f, complex, of the same shape.
         """
         masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
-        for columns in zip(potentials, eigenvalue * masses + loads, masses, strict=True):
-            self._append(np.array(columns))
-        known, size = self._weighed.shape[1], self.size
-        self._projected = [self._pencil.products(self._basis, image) for image in self._images]
-        added = np.array([image[known:] * self._weights for image in self._images])
-        self._weighed = np.concatenate([self._weighed, added], axis=1)
-        gram = np.zeros((2, size, 2, size), dtype=complex)
-        gram[:, :known, :, :known] = self._gram
-        rows = self._weighed.reshape(2 * size, -1)
-        further = self._pencil.products(rows.conj(), added.reshape(-1, rows.shape[1]))
-        gram[:, :, :, known:] = further.reshape(2, size, 2, -1)
-        gram[:, known:, :, :] = gram[:, :, :, known:].transpose(2, 3, 0, 1).conj()
-        self._gram = gram
+        vectors, mixing, shift = self._orthonormal(potentials)
+        images = np.array([mixing @ (eigenvalue * masses + loads), mixing @ masses]) - shift @ self._images
+        known, count = self.size, self.size + len(vectors)
+        if count > self._stored.shape[1]:
+            # Rows that are not written to take no memory.
+            larger = np.empty((3, 2 * count, vectors.shape[1]), dtype=complex)
+            larger[:, :known] = self._stored[:, :known]
+            self._stored = larger
+        self._stored[0, known:count], self._stored[1:, known:count], self.size = vectors, images, count
+        wet, products = self._pencil.wet, self._pencil.products
+        weighed = (images * self._weights).conj()
+        at_bodies = np.concatenate([vectors[None, :, wet], weighed[:, :, wet]])
+        self._at_bodies = np.concatenate([self._at_bodies, at_bodies], axis=1)
+        projected = np.zeros((2, count, count), dtype=complex)
+        gram = np.zeros((2, count, 2, count), dtype=complex)
+        projected[:, :known, :known], gram[:, :known, :, :known] = self._projected, self._gram
+        for place, image in enumerate(self._images):
+            projected[place, known:, :known] = products(vectors, image[:known])
+            projected[place, :, known:] = products(self._basis, image[known:])
+            further = products(image, weighed.reshape(2 * len(vectors), len(self._weights))).conj()
+            gram[place, :, :, known:] = further.reshape(count, 2, len(vectors))
+        gram[:, known:, :, :known] = gram[:, :known, :, known:].transpose(2, 3, 0, 1).conj()
+        self._projected, self._gram = projected, gram
 
-    def _append(self, columns: np.ndarray) -> None:
-        """Add a solution ψ with Aψ and Mψ, shape (3, own free unknowns), after orthogonalization."""
-        columns = columns / self._norm(columns[0])
+    def _orthonormal(self, potentials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return orthonormal vectors Tψ − CV of potentials ψ, orthogonal to the basis V, with T and C, shapes (vectors,
+        own free unknowns), (vectors, potentials), (vectors, basis)."""
+        norms = np.array([self._norm(potential) for potential in potentials])
+        vectors, mixing = potentials / norms[:, None], np.diag(1.0 / norms).astype(complex)
+        shift = np.zeros((len(vectors), self.size), dtype=complex)
         # Gram-Schmidt twice keeps orthogonality to rounding.
         for _ in range(2):
-            known = self._pencil.products(self._basis.conj(), columns[:1])[:, 0]
-            columns = columns - np.array([known @ part for part in (self._basis, *self._images)])
-        left = self._norm(columns[0])
-        if left > _DEPENDENT:
-            vector, laplace, mass = columns[:, None] / left
-            self._basis = np.vstack([self._basis, vector])
-            self._images = [np.vstack([self._images[0], laplace]), np.vstack([self._images[1], mass])]
+            parts = self._pencil.products(vectors.conj(), self._basis).conj()
+            vectors, shift, kept = vectors - parts @ self._basis, shift + parts, 0
+            for place in range(len(vectors)):
+                parts = self._pencil.products(vectors[place : place + 1].conj(), vectors[:kept]).conj()[0]
+                rows = [whole[place] - parts @ whole[:kept] for whole in (vectors, mixing, shift)]
+                left = self._norm(rows[0])
+                if left > _DEPENDENT:
+                    vectors[kept], mixing[kept], shift[kept] = (row / left for row in rows)
+                    kept += 1
+            vectors, mixing, shift = vectors[:kept], mixing[:kept], shift[:kept]
+        return vectors, mixing, shift
 
     def project(self, loads: np.ndarray) -> np.ndarray:
         """Return Vᵀf of loads of shape (loads, own free unknowns): shape (loads, basis) (collective)."""
@@ -129,36 +159,32 @@ class ReducedPencil:
         basis = self._basis
         return lambda coordinates: coordinates @ basis
 
-    def residuals(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-        """Return relative residuals |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|, shape (loads,).
-
-        With (A − λM)⁻¹ instead of D⁻¹ the square would be the relative error of fᵀψ (collective).
-        """
-        responses = np.einsum("lv,lv->l", self.project(loads), coordinates)
-        return self._relative(self.misfits(eigenvalue, loads, coordinates), responses)
-
     def misfits(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-        """Return |rᵀ D⁻¹ r̄|^{1/2} of solutions, shape (loads,) (collective)."""
+        """Return |rᵀ D⁻¹ r̄|^{1/2} of solutions with the residual r and D = |diag A|, shape (loads,) (collective)."""
         laplace, mass = self._images
-        rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
+        rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * np.sqrt(self._weights)
         return np.array([self._norm(left) for left in rest])
 
-    def load_products(self, loads: np.ndarray) -> LoadProducts:
-        """Return products of loads, shape (loads, own free unknowns), with each other and with the basis
-        (collective)."""
-        wet = np.flatnonzero(loads.any(axis=0))
-        weighed, rows = loads[:, wet] * self._weights[wet], self._weighed[:, :, wet].reshape(2 * self.size, len(wet))
-        found = self._pencil.products(np.vstack([weighed, rows]).conj(), weighed)
-        return LoadProducts(
-            projected=self._pencil.products(loads[:, wet], self._basis[:, wet]),
-            gram=found[: len(loads)],
-            images=found[len(loads) :].reshape(2, self.size, len(loads)),
-        )
+    def load_products(self, loads: np.ndarray, known: LoadProducts | None = None) -> LoadProducts:
+        """Return products of loads with each other and with the basis (collective).
 
-    def known_residuals(
+        Args:
+            loads: on `OpenPencil.wet`, shape (loads, wet).
+            known: those of other loads with the same basis, which come first.
+        """
+        products, size = self._pencil.products, self.size
+        by_basis = products(self._at_bodies.reshape(3 * size, loads.shape[1]), loads).reshape(3, size, len(loads))
+        if known is not None:
+            loads, by_basis = np.vstack([known.loads, loads]), np.concatenate([known.by_basis, by_basis], axis=2)
+        weighed = (loads * self._weights[self._pencil.wet]).conj()
+        return LoadProducts(loads=loads, by_basis=by_basis, gram=products(weighed, loads))
+
+    def residuals(
         self, eigenvalue: complex, products: LoadProducts, parts: np.ndarray, coordinates: np.ndarray
     ) -> np.ndarray:
-        """Return `residuals` from products alone; below 1e-8 they are rounding.
+        """Return `misfits` over |fᵀψ|^{1/2} from products alone, shape (combinations,); below 1e-8 they are rounding.
+
+        With (A − λM)⁻¹ instead of D⁻¹ the square would be the relative error of fᵀψ.
 
         Args:
             eigenvalue: λ.
@@ -171,16 +197,11 @@ class ReducedPencil:
         flat, size = factors.reshape(len(parts), -1), 2 * self.size
         squares = (parts.conj() @ products.gram * parts).sum(axis=1)
         squares += (flat.conj() @ self._gram.reshape(size, size) * flat).sum(axis=1)
-        squares += 2.0 * (flat.conj() @ products.images.reshape(size, -1) * parts).sum(axis=1)
-        misfits = np.sqrt(np.maximum(squares.real, 0.0))
-        return self._relative(misfits, (parts @ products.projected * coordinates).sum(axis=1))
-
-    @staticmethod
-    def _relative(misfits: np.ndarray, responses: np.ndarray) -> np.ndarray:
-        sizes = np.abs(responses)
+        squares += 2.0 * (flat.conj() @ products.by_basis[1:].reshape(size, parts.shape[1]) * parts).sum(axis=1)
+        sizes = np.abs((parts @ products.projected * coordinates).sum(axis=1))
         # Loads that move hardly any water are compared with the others.
         floor = max(_NO_RESPONSE * float(sizes.max(initial=0.0)), np.finfo(float).tiny)
-        relative: np.ndarray = misfits / np.sqrt(np.maximum(sizes, floor))
+        relative: np.ndarray = np.sqrt(np.maximum(squares.real, 0.0) / np.maximum(sizes, floor))
         return relative
 
     def _norm(self, vector: np.ndarray) -> float:

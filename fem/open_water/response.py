@@ -107,7 +107,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
+        table = replace(table, **_on_hulls(found.swept.solutions, found.swept.errors))
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
@@ -120,13 +120,14 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _on_hulls(solutions: list[OpenResponse], errors: np.ndarray) -> dict[str, Any]:
-    """Pressures along hulls, and in one liquid the drift force by the field beside the bodies (collective)."""
+def _on_hulls(solutions: list[OpenResponse], reduced: np.ndarray) -> dict[str, Any]:
+    """Pressures along hulls, and in one liquid the drift force by the field beside the bodies, with the relative errors
+    by the reduced basis (collective)."""
     from hydroelastic.fem.open_water.hull import hull_pressure
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
-    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, errors, index) for index in hulls)}
+    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, reduced, index) for index in hulls)}
     if len(tank.layers) == 1:
         forces = [
             np.array([one.near_field_drift(place) for place in range(len(one.incident))])

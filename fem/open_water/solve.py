@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from hydroelastic.fem.kept_tolerance import excess
-from hydroelastic.fem.memory import release_memory
+from hydroelastic.fem.memory import release_memory, sparing_known_objects
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
@@ -94,6 +94,7 @@ class OpenWaterSolution:
         return "unconverged" if self.reasons else "ok"
 
 
+@sparing_known_objects()
 def solve_open_water(
     problem: OpenWaterProblem, requests: Sequence[Request], report: Report = lambda _message: None
 ) -> OpenWaterSolution:

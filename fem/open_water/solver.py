@@ -54,7 +54,7 @@ class OpenSolver:
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
         self._sampled = np.zeros((0, self._loads.shape[1]))
-        self._known = self._reduced.load_products(self._loads)
+        self._known = self._reduced.load_products(self._loads[:, model.pencil.wet])
         # A sweep evaluates a frequency several times, and so do several analyses.
         self._waves: dict[float, Incidence] = {}
         self._solutions: dict[float, tuple[np.ndarray, np.ndarray]] = {}
@@ -114,7 +114,7 @@ class OpenSolver:
             coordinates = self._reduced.solve(squared, known.projected)
             # Factors without simple ratios, so that no parts cancel by symmetry.
             parts = np.cos(1.0 + np.arange(len(coordinates)))[None]
-            residual = self._reduced.known_residuals(squared, known, parts, parts @ coordinates)[0]
+            residual = self._reduced.residuals(squared, known, parts, parts @ coordinates)[0]
             return known.projected @ coordinates.T, float(residual)
 
     def frequency(self, omega: float) -> OpenFrequency:
@@ -160,9 +160,9 @@ class OpenSolver:
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            known, count = self._with_waves(waves), len(self._loads)
             found = self._reduced.solve(squared, known.projected)
-            residual = self._reduced.known_residuals(squared, known, np.eye(len(found)), found).max()
+            residual = self._reduced.residuals(squared, known, np.eye(len(found)), found).max()
             lift = self._reduced.lift()
         coupling = known.projected[:count]
         return OpenFrequency(
@@ -218,7 +218,7 @@ class OpenSolver:
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            known, count = self._with_waves(waves), len(self._loads)
             found = self._reduced.solve(squared, known.projected)
             radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
             fluxes = -known.projected[count:]
@@ -232,7 +232,7 @@ class OpenSolver:
             motions, absorbed = (part[incident] for part in self._motions(squared, waves, equations))
             coordinates = diffracted[incident] + motions @ radiated
             parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
-            residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()
+            residual = self._reduced.residuals(squared, known, parts, coordinates).max()
             lift = self._reduced.lift()
         return OpenResponse(
             model=self.model,
@@ -316,8 +316,12 @@ class OpenSolver:
     def _known_loads(self) -> LoadProducts:
         """Products of F, for the basis as it is (collective)."""
         if self._known.projected.shape[1] != self._reduced.size:
-            self._known = self._reduced.load_products(self._loads)
+            self._known = self._reduced.load_products(self._loads[:, self.model.pencil.wet])
         return self._known
+
+    def _with_waves(self, waves: Incidence) -> LoadProducts:
+        """Products of F and of −g, for the basis as it is (collective)."""
+        return self._reduced.load_products(-waves.fluxes[:, self.model.pencil.wet], self._known_loads())
 
     def _solved(self, loads: np.ndarray) -> np.ndarray:
         return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)

@@ -29,20 +29,23 @@ class WettedSurface:
     def __init__(self, liquid: LiquidSpace, body: Body, wavenumber: float) -> None:
         """Find the points (collective)."""
         self._liquid = liquid
-        self._groups: list[tuple[np.ndarray, np.ndarray, int]] = []
-        points, normals, weights, layers = [], [], [], []
+        self._groups: list[tuple[np.ndarray, int]] = []
+        points, normals, weights, layers, unknowns = [], [], [], [], []
         for group in facet_groups(liquid, body.surface):
+            # Other basis functions vanish on the facet.
+            places = liquid.facet_dofs(group.place)
             at_corner = singular_corner(body, group)
             for corner in np.unique(at_corner):
                 own = group.subset(at_corner == corner)
                 quadrature = facet_quadrature(liquid, own, body.wavenumber + wavenumber, int(corner))
                 dofs = liquid.space.dofmap.list[own.cells]
-                basis = potential_basis(liquid, quadrature.reference)
-                self._groups.append((dofs, basis, quadrature.weights.size))
+                self._groups.append((potential_basis(liquid, quadrature.reference)[:, places], len(dofs)))
+                unknowns.append(dofs[:, places].ravel())
                 points.append(quadrature.points.T)
                 normals.append(quadrature.normals.T)
                 weights.append(quadrature.weights.ravel())
                 layers.append(np.repeat(liquid.layer_of[dofs[:, 0]], quadrature.weights.shape[1]))
+        self._unknowns = np.concatenate([np.empty(0, dtype=np.int32), *unknowns])
         dim = liquid.tank.mesh.geometry.dim
         self.points = np.vstack([np.empty((0, dim)), *points])
         self.normals = np.vstack([np.empty((0, dim)), *normals])
@@ -57,15 +60,16 @@ class WettedSurface:
         """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)
         (collective)."""
         parts = np.vstack([fluxes.real, fluxes.imag]) * self._weights
-        loads = np.zeros((len(parts), len(self._liquid.layer_of)))
-        first = 0
-        for dofs, basis, count in self._groups:
-            local = parts[:, first : first + count].reshape(len(parts), len(dofs), -1) @ basis
-            for load, values in zip(loads, local, strict=True):
-                np.add.at(load, dofs, values)
+        local, first = [np.zeros((len(parts), 0))], 0
+        for basis, facets in self._groups:
+            count = facets * len(basis)
+            own = parts[:, first : first + count].reshape(len(parts), facets, -1) @ basis
+            local.append(own.reshape(len(parts), -1))
             first += count
-        own = self._liquid.numbering.summed(loads)
-        complex_loads: np.ndarray = own[: len(fluxes)] + 1j * own[len(fluxes) :]
+        size = len(self._liquid.layer_of)
+        loads = np.array([np.bincount(self._unknowns, values, size) for values in np.hstack(local)])
+        summed = self._liquid.numbering.summed(loads)
+        complex_loads: np.ndarray = summed[: len(fluxes)] + 1j * summed[len(fluxes) :]
         return complex_loads
 
     def integrals(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -22,6 +22,12 @@ AnyFloat: TypeAlias = Float | RevolvedFloat
 AnyBody: TypeAlias = AnyBeam | AnyFloat | SeaPlate
 """Any body of a section or about an axis."""
 
+
+def name_of_body(body: AnyBody) -> str:
+    """Return what a body is called in messages."""
+    return "float" if isinstance(body, AnyFloat) else "plate" if isinstance(body, SeaPlate) else "beam"
+
+
 _SHAPES = (*get_args(Shape), *SOLID_SHAPES)
 
 

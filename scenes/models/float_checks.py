@@ -248,7 +248,7 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Ite
             value,
             f"the float reaches down to y = {low:g} m, and the liquid below it ends at y = {floor:g} m",
             allowed=f"a draught that leaves {gap:g} m",
-            remedy="Make the liquid deeper, the float lower or its mass smaller",
+            remedy="Make the liquid deeper, the float less high or its mass smaller",
         )
     elif ceiling is not None and high > ceiling - gap:
         yield problem_at(
@@ -256,7 +256,7 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Ite
             value,
             f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
             allowed=f"a height that leaves {gap:g} m",
-            remedy="Make that layer deeper, the float lower or its mass greater",
+            remedy="Make that layer deeper, the float less high or its mass greater",
         )
 
 
@@ -359,16 +359,16 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
-        metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
-        height = at_rest.centre_of_mass[1] - at_rest.reference_level
         keys = ("centre_of_mass", "vertical_centre_of_gravity")
         given = next((key for key in keys if getattr(body, key) is not None), None)
+        above_water = given == keys[1] or keys[0] not in type(body).model_fields
+        height = at_rest.centre_of_mass[1] - (at_rest.level if above_water else at_rest.reference_level)
         yield problem_at(
             ("body", index, given or "motions"),
             getattr(body, given) if given else ", ".join(body.motions),
-            f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
-            f"{height - metacentre:.3g} m lower",
-            allowed=f"a centre_of_mass of at most {metacentre:g} m",
+            f"the float capsizes: its centre of mass lies {height:g} m above "
+            f"{'the still level' if above_water else 'its reference level'}, and the metacentre {-arm:.3g} m lower",
+            allowed=f"a {keys[above_water]} of at most {height + arm:g} m",
             remedy=f'Leave {found.pop()} out of the motions, or set unstable = "solve"',
         )
 

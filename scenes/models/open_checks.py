@@ -8,7 +8,7 @@ from math import inf, isinf, sqrt
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
-from hydroelastic.scenes.models.body_kinds import AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
 from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
@@ -17,6 +17,12 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
+
+_OF_SECTIONS = {
+    "fields_at": "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
+    "motion is largest",
+    "hull_pressures": "it is computed for sections only, and the bodies are solids of revolution",
+}
 
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -156,21 +162,9 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        if getattr(analysis, "fields_at", ()):
-            yield problem_at(
-                ("analysis", index, "fields_at"),
-                None,
-                "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
-                "motion is largest",
-                remedy="Leave it out",
-            )
-        if getattr(analysis, "hull_pressures", False):
-            yield problem_at(
-                ("analysis", index, "hull_pressures"),
-                True,
-                "it is computed for sections only, and the bodies are solids of revolution",
-                remedy="Leave it out",
-            )
+        for key, wrong in _OF_SECTIONS.items():
+            if value := getattr(analysis, key, None):
+                yield problem_at(("analysis", index, key), value, wrong, remedy="Leave it out")
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
             yield problem_at(
                 ("analysis", index, "largest_damping"),
@@ -202,11 +196,11 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
         numbers = [str(number + 1) for number, _ in scene.floats]
         body = scene.body[which - 1] if which <= len(scene.body) else None
         if not isinstance(body, AnyFloat):
-            what = "there is no body of that number" if body is None else "it is a beam, and only floats are released"
+            other = f"it is a {name_of_body(body)}, and only floats are released" if body is not None else None
             yield problem_at(
                 ("analysis", index, "body"),
                 which,
-                what,
+                other or "there is no body of that number",
                 allowed=" or ".join(numbers) if numbers else "none: this scene has no float",
             )
             continue

@@ -11,9 +11,8 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.body_kinds import AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
 from hydroelastic.scenes.models.problems import problem_at
-from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -83,11 +82,15 @@ def _is_round(one: Attachment) -> bool:
     return (one.at is None or one.at[0] == 0.0) and not any(coupled)
 
 
+def _numbers(scene: TankParts) -> str:
+    return f"1 to {len(scene.body)}" if scene.body else "none: this scene has no body"
+
+
 def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[InitErrorDetails]:
     for key, number in (("body", one.body), ("to", one.to)):
         if number is not None and number > len(scene.body):
             yield problem_at(
-                ("attachment", index, key), number, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
+                ("attachment", index, key), number, "there is no body of that number", allowed=_numbers(scene)
             )
             return
     if one.to == one.body:
@@ -103,7 +106,7 @@ def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[
         body = scene.body[number - 1]
         if isinstance(body, AnyFloat):
             continue
-        what = "plate" if isinstance(body, SeaPlate) else "beam"
+        what = name_of_body(body)
         if one.at is None:
             yield problem_at(
                 ("attachment", index, "at"),
@@ -118,17 +121,18 @@ def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[
                 f"x = {one.at[0]:g} m does not lie on the {what}, [[body]] number {number}",
                 allowed=f"x from {body.start:g} to {body.end:g} m",
             )
+        sideways = "surge" if scene.is_revolved else "sway"
         if any(matrix[1][1] for matrix in (one.stiffness, one.damping)) or one.quadratic_damping[1]:
             yield problem_at(
                 ("attachment", index, "stiffness"),
                 None,
-                "a beam does not sway, so that forces in sway have no effect on it",
-                remedy="Make the numbers of sway zero",
+                f"a {what} does not {sideways}, so that forces in {sideways} have no effect on it",
+                remedy=f"Make the numbers of {sideways} zero",
             )
 
 
 def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield points of bodies that there are not, or that do not lie on their beam, and bands without waves."""
+    """Yield points of bodies that there are not, or that do not lie on their beam or plate, and bands without waves."""
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Spectrum):
             continue
@@ -141,16 +145,14 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
         for key, number, one, at in moving:
             where = ("analysis", index, key, number)
             if one > len(scene.body):
-                yield problem_at(
-                    (*where, "body"), one, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
-                )
+                yield problem_at((*where, "body"), one, "there is no body of that number", allowed=_numbers(scene))
                 continue
             body = scene.body[one - 1]
             if not isinstance(body, AnyFloat) and not body.start <= at[0] <= body.end:
                 yield problem_at(
                     (*where, "at"),
                     None,
-                    f"x = {at[0]:g} m does not lie on the beam, [[body]] number {one}",
+                    f"x = {at[0]:g} m does not lie on the {name_of_body(body)}, [[body]] number {one}",
                     allowed=f"x from {body.start:g} to {body.end:g} m",
                 )
         low = analysis.spectrum.band[0]

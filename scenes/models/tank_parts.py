@@ -59,7 +59,7 @@ class Liquid(SceneModel):
     density: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
         description="density, kg/m³; 0, of the upper of two only, is air, which is not modelled"
     )
-    depth: PositiveOrInfinite = Field(description='depth of the layer, m; inf only with ends = "open"')
+    depth: PositiveOrInfinite = Field(description="depth of the layer, m; inf in open water alone")
 
     @field_validator("density")
     @classmethod
@@ -75,7 +75,7 @@ class Accuracy(SceneModel):
     """Requested accuracy."""
 
     tolerance: Annotated[float, Strict(), Field(ge=1e-12, le=1e-1)] = Field(
-        default=1e-6, description="asked relative error of the frequencies"
+        default=1e-6, description="asked relative error of frequencies, and of all else that open water is asked for"
     )
     modes: Annotated[int, Strict(), Field(ge=1, le=200)] = Field(
         default=10, description="number of modes, from the lowest"

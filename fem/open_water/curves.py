@@ -58,6 +58,11 @@ class Curves:
         return replace(self, omegas=union, responses=[found[place] for place in range(len(union))], errors=errors)
 
     @property
+    def order(self) -> int:
+        """Azimuthal order, 0 of sections."""
+        return self.solver.model.basin.tank.geometry.order
+
+    @property
     def motions(self) -> np.ndarray:
         """Motions per elevation of the only incident wave, shape (n, body unknowns)."""
         return np.array([_motions_of(response)[0] for response in self.responses])

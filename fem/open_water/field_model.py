@@ -25,6 +25,7 @@ from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
+from hydroelastic.fem.open_water.plate_modes import PlateModes
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.fem.spectral_error import cell_errors
@@ -48,6 +49,7 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import Attachment, OutsideForces
 from hydroelastic.physics.local_waves import moving_parts
+from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 ANGLE = pi / 3.0
@@ -124,6 +126,12 @@ class OpenModel:
     def wetted(self) -> tuple[WettedSurface, ...]:
         """The bodies' surfaces, for the waves of the band (collective)."""
         return tuple(WettedSurface(self.pencil.liquid, body, self.shortest) for body in self.pencil.bodies)
+
+    @cached_property
+    def plate_modes(self) -> dict[int, PlateModes]:
+        """The dry modes of each round plate, by its index among the bodies (collective)."""
+        bodies = enumerate(self.basin.tank.bodies)
+        return {index: PlateModes(self, index) for index, body in bodies if isinstance(body, RoundPlate)}
 
     @cached_property
     def scale(self) -> MotionScale:

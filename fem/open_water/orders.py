@@ -35,7 +35,8 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.fem.open_water.round_plates import along_diameter, joined
+from hydroelastic.fem.open_water.round_plates import along_diameter, joined, with_largest
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.round_plates import RoundPlate
 
@@ -78,12 +79,17 @@ def solve_by_order(
 
 def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
     """Solve for the motions of each order (collective); see `solve_radiation`."""
+    found = [solve_radiation(problem.of_order(order), request) for order in _orders(problem, request.elastic_modes)]
+    return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
+
+
+def _orders(problem: OpenWaterProblem, elastic_modes: int) -> list[int]:
+    """Orders of the rigid motions and of the lowest elastic shapes."""
     orders = {*problem.tank.orders}
     for body in problem.tank.bodies:
         if isinstance(body, RoundPlate):
-            orders |= {*range(len(lowest_elastic(body, request.elastic_modes)))}
-    found = [solve_radiation(problem.of_order(order), request) for order in sorted(orders)]
-    return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
+            orders |= {*range(len(lowest_elastic(body, elastic_modes)))}
+    return sorted(orders)
 
 
 def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
@@ -173,7 +179,9 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=error,
         missed_peaks=tuple(peaks),
-        plates=tuple(along_diameter(problem.tank, plate, error) for plate in plates),
+        plates=tuple(
+            with_largest(problem.tank, along_diameter(problem.tank, plate, error), plate) for plate in plates
+        ),
         round_plates=plates,
     )
 
@@ -258,8 +266,10 @@ def _solve_impulse_response(
     problem: OpenWaterProblem, request: ImpulseResponseRequest, memory: Memory
 ) -> ImpulseResponseSolution:
     """Join the impulse responses of each order (collective); see `solve_impulse_response`."""
-    found = [solve_impulse_response(request, memory(order, request.elastic_modes)) for order in problem.tank.orders]
-    tables, dofs = [one.table for one in found], _dofs(problem)
+    orders = _orders(problem, request.elastic_modes)
+    found = [solve_impulse_response(request, memory(order, request.elastic_modes)) for order in orders]
+    tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
 
     def matrices(name: str) -> np.ndarray:
         return _matrices(dofs, [(table.dofs, getattr(table, name)) for table in tables])
@@ -283,9 +293,10 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
     `solve_motion`."""
     found = [
         solve_motion(problem.of_order(order), request, memory(order, request.elastic_modes))
-        for order in problem.tank.orders
+        for order in _orders(problem, request.elastic_modes)
     ]
-    tables, dofs = [one.table for one in found], _dofs(problem)
+    tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
 
     def motions(name: str) -> np.ndarray:
         return _by_dof(dofs, [(table.dofs, getattr(table, name)) for table in tables])
@@ -301,7 +312,10 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
     return replace(_largest(found), table=table, error=_error(found))
 
 
-def _dofs(problem: OpenWaterProblem, *tables: RadiationTable | ResponseTable | ResonanceTable) -> tuple[Dof, ...]:
+def _dofs(
+    problem: OpenWaterProblem,
+    *tables: RadiationTable | ResponseTable | ResonanceTable | ImpulseResponseTable | MotionTable,
+) -> tuple[Dof, ...]:
     """Degrees of freedom of all orders, body by body."""
     rigid = dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
     elastic = (dof for table in tables for dof in table.dofs if dof.is_elastic)

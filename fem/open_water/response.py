@@ -20,7 +20,7 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
-from hydroelastic.fem.open_water.round_plates import deflections_of_order
+from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -28,6 +28,7 @@ from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.physics.attachments import REGULAR
+from hydroelastic.physics.tank import Tank
 
 # Largest part of a motion by which its drawn curve may miss it.
 _DRAWN = 1e-3
@@ -85,7 +86,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
             causes = [response_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         joined = joined_errors(causes, float(swept.errors.max()))
-        table = _table(request, solver.model, omegas, swept.solutions, errors)
+        table = _table(request, problem.tank, solver.model, omegas, swept.solutions, errors)
         units = solver.model.basin.units
         # Of a wave of unit elevation that is reflected in full, the drift force in deep water is ρg/2.
         drift = float(np.nan_to_num(table.drift_error).max(initial=0.0)) / (0.5 * units.density * units.gravity)
@@ -102,12 +103,12 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     if request.hull_pressures:
         table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
+        table = replace(table, missed_peaks=_unresolved(problem.tank, request, found.solver, table))
     if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
         # Of several azimuthal orders each would have frequencies of its own.
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
-        table = replace(table, curve=_table(request, model, curves.omegas, curves.responses, curves.errors))
+        table = replace(table, curve=_table(request, problem.tank, model, curves.omegas, curves.responses, curves.errors))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
@@ -128,13 +129,15 @@ def _on_hulls(solutions: list[OpenResponse], errors: np.ndarray) -> dict[str, An
     return found
 
 
-def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
+def _unresolved(
+    tank: Tank, request: ResponseRequest, solver: OpenSolver, table: ResponseTable
+) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
     incident = incident_places(solver.model, request.waves_from)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
-        return _table(request, solver.model, omegas, solutions, np.full(len(omegas), nan))
+        return _table(request, tank, solver.model, omegas, solutions, np.full(len(omegas), nan))
 
     return unresolved_peaks(table, solver.resonances_between(), between)
 
@@ -173,23 +176,19 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
 def _truncation(solution: OpenResponse) -> float:
     """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
 
-    About an axis, where waves of one order may hardly move a plate, relative to the elevation of the wave if that is
-    larger, and times the number of orders that move it, ka and one more, whose deflections add up.
+    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `PlateModes`.
     """
-    model, worst = solution.model, 0.0
-    is_round = model.basin.tank.geometry.is_revolved
-    elevations = solution.incidence.elevations[solution.incident] * float(is_round)
-    for motions, elevation in zip(solution.motions, elevations, strict=True):
-        largest, first = max(float(np.abs(motions).max(initial=0.0)), float(elevation)), 0
+    model, no_drag = solution.model, np.zeros((len(solution.motions), len(solution.model.outside.drag)))
+    bent = (modes.of(solution, solution.motions, no_drag) for modes in model.plate_modes.values())
+    worst = max((float(one.omitted.max()) for one in bent), default=0.0)
+    for motions in solution.motions:
+        largest, first = float(np.abs(motions).max(initial=0.0)), 0
         for index, body in enumerate(model.pencil.bodies):
             own = np.abs(motions[first : first + body.size])
             first += body.size
-            if largest and body.size and model.basin.tank.bodies[index].is_elastic:
-                reach = model.basin.tank.bodies[index].waterplane[1] * float(is_round)
-                terms = 1.0 + solution.incidence.planes[0].wave.wavenumber * reach
-                tail = terms * _TAIL * body.size * float(own[-2:].max())
-                if index in model.basin.tank.beams:
-                    tail += _tail_of_attachments(motions, model, index, float(np.sqrt(solution.squared.real)))
+            if largest and body.size and index in model.basin.tank.beams:
+                tail = _TAIL * body.size * float(own[-2:].max())
+                tail += _tail_of_attachments(motions, model, index, float(np.sqrt(solution.squared.real)))
                 worst = max(worst, tail / largest)
     return worst
 
@@ -213,7 +212,12 @@ def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omeg
 
 
 def _table(
-    request: ResponseRequest, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
+    request: ResponseRequest,
+    tank: Tank,
+    model: OpenModel,
+    omegas: np.ndarray,
+    solutions: list[OpenResponse],
+    errors: np.ndarray,
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
@@ -240,7 +244,16 @@ def _table(
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, solutions, errors)),
-        round_plates=deflections_of_order(model, motions, request.positions) if is_round else (),
+        round_plates=tuple(
+            deflections_of_order(
+                model,
+                solutions,
+                _moved(request, model, solutions),
+                towards,
+                errors,
+                lambda index: radii_along(tank, index, request.positions),
+            )
+        ),
         fields_at=request.fields_at,
     )
 
@@ -267,17 +280,26 @@ def drift_errors(solutions: list[OpenResponse], errors: np.ndarray) -> np.ndarra
     return units.density * units.gravity * np.array(found)
 
 
+def _moved(
+    request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse]
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Motions, and linear damping in place of each drag, of each response."""
+    outside, found = model.outside, []
+    for solution in solutions:
+        heights = request.elevation / model.basin.units.length / solution.incidence.elevations[solution.incident]
+        speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
+        found.append((solution.motions, REGULAR * outside.drag * speeds))
+    return found
+
+
 def _plates(
     request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse], errors: np.ndarray
 ) -> Iterator[PlateDeflection]:
-    outside, units = model.outside, model.basin.units
     for index, beam in model.basin.tank.beams.items():
         x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
-        along, found = BeamLoads(model, index, x), []
-        for solution in solutions:
-            heights = request.elevation / units.length / solution.incidence.elevations[solution.incident]
-            speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
-            found.append(along.of(solution, solution.motions, REGULAR * outside.drag * speeds))
+        along = BeamLoads(model, index, x)
+        moved = zip(solutions, _moved(request, model, solutions), strict=True)
+        found = [along.of(one, *own) for one, own in moved]
         yield plate_deflection(model, index, x, solutions, found, errors)
 
 

@@ -79,6 +79,7 @@ class PlateDeflection:
         deflection_error: (n, w) estimated error of the deflection anywhere, m/m.
         bending_moment_error: (n, w) the same of the bending moment, N/m.
         shear_force_error: (n, w) the same of the shear force, N/m².
+        strain: (n, w, p) of a plate of known thickness, along the diameter at its lower face, per metre of elevation.
         largest_strain: (n, w) at the faces of a plate of known thickness, over all its points, per metre of elevation.
         largest_stress: (n, w) likewise, Pa/m.
     """
@@ -91,6 +92,7 @@ class PlateDeflection:
     deflection_error: Floats
     bending_moment_error: Floats
     shear_force_error: Floats
+    strain: Complexes | None = None
     largest_strain: Floats | None = None
     largest_stress: Floats | None = None
 
@@ -102,12 +104,15 @@ class RoundDeflection:
     Attributes:
         body: its index among the bodies.
         radii: (p,) from the axis or the inner edge to the outer one, m.
-        derivatives: (4, n, w, orders, p) Wₙ and its derivatives per unit elevation of the incident wave, m^{-d}.
+        derivatives: (4, n, w, orders, p) Wₙ, Wₙ′, Wₙ″ and ∂(ΔₙWₙ)/∂r per unit elevation of the incident wave, m^{-d}.
+        uncertain: (2, 4, n, w, orders, p) parts of these that are not certain: by the error of the scattered waves, and
+            by the last dry modes.
     """
 
     body: int
     radii: Floats
     derivatives: Complexes
+    uncertain: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -268,7 +273,7 @@ class IrregularResponse:
 
     Attributes:
         quantity: which.
-        unit: m, rad or m/s².
+        unit: m, rad or m/s², of moments N, of strain 1.
         significant_amplitude: mean of the highest third of the amplitudes.
         largest_amplitude: most probable largest amplitude in the duration.
         zero_crossing_period: s.
@@ -291,7 +296,7 @@ class IrregularResponse:
 
 @dataclass(frozen=True, kw_only=True)
 class PlateStatistics:
-    """Statistics along a beam in irregular waves, per metre of width. Each is of shape (p,).
+    """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width. Each is of shape (p,).
 
     Attributes:
         body: its index among the bodies.
@@ -347,7 +352,7 @@ class SpectrumTable:
         mean_drift_error: its estimated error, N/m.
         mean_absorbed_power: mean power that linear damping from outside takes, W/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
-        plates: one for each beam.
+        plates: one for each beam and round plate.
     """
 
     waves: str

@@ -2,9 +2,7 @@
 
 With w = Σ Wₙ(r) cos nθ the curvatures along r, across it and the twist are Σ Wₙ″ cos nθ, Σ (Wₙ′/r − n²Wₙ/r²) cos nθ
 and Σ −n(Wₙ′/r − Wₙ/r²) sin nθ. Along the diameter θ = 0, π, where x is ±r, the moment is D(w_xx + νw_yy) and the shear
-force D ∂Δw/∂x, with
-
-    ∂(ΔₙWₙ)/∂r = Wₙ‴ + Wₙ″/r − (1 + n²)Wₙ′/r² + 2n²Wₙ/r³.
+force D ∂Δw/∂x; ΔₙWₙ follows from the load that bends the plate, see `RoundShapes`.
 
 At the faces the principal strains are h/2 times the principal curvatures a ± √(b² + c²), a half the sum of both
 curvatures, b half their difference, c the twist; the principal stresses are 6D/h² times (1 + ν)a ± (1 − ν)√(b² + c²).
@@ -12,60 +10,96 @@ curvatures, b half their difference, c the twist; the principal stresses are 6D/
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from hydroelastic.fem.bodies.round_plate import RoundShapes, plate_of
+from hydroelastic.fem.bodies.round_plate import plate_of
 from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.results import Floats, PlateDeflection, RoundDeflection
 from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 # Angles from 0 to π, and phases of half a period, among which the largest strain is sought.
 _ANGLES, _PHASES = 73, 24
+# Ratio of successive orders beyond the last ones, at most, and a margin of what these add.
+_SLOWEST, _MARGIN = 0.5, 3.0
+# Error of moments and shear forces over their part in the last third of the polynomials, with a margin.
+_LAST = 0.25
 
 
-def deflections_of_order(model: OpenModel, motions: np.ndarray, positions: int) -> tuple[RoundDeflection, ...]:
-    """Return the deflection of each round plate in the waves of one order.
+def deflections_of_order(
+    model: OpenModel,
+    responses: list[OpenResponse],
+    moved: list[tuple[np.ndarray, np.ndarray]],
+    towards: int,
+    errors: Floats,
+    radii_of: Callable[[int], Floats],
+) -> Iterator[RoundDeflection]:
+    """Yield the deflection of each round plate in the waves of one order (collective).
 
     Args:
         model: the problem of the order.
-        motions: unknowns of all bodies per dimensionless elevation, shape (frequencies, waves, unknowns).
-        positions: number of points along a diameter.
+        responses: to waves, shape (frequencies,).
+        moved: the motions and the linear damping in place of drag of each, see `PlateModes.of`.
+        towards: direction of the waves.
+        errors: of the responses, relative to the incident wave, shape (frequencies,).
+        radii_of: returns the ascending radii of a plate by its index among the bodies, m.
     """
-    found, first = [], 0
-    for index, (body, own) in enumerate(zip(model.basin.tank.bodies, model.pencil.bodies, strict=True)):
-        part, first = motions[..., first : first + own.size], first + own.size
-        if isinstance(body, RoundPlate):
-            radii = np.linspace(body.inner_radius, body.radius, (positions + 1) // 2, dtype=np.float64)
-            shapes, length = RoundShapes(body, own.size), model.basin.units.length
-            derivatives = [part @ shapes.values(radii, order) / length**order for order in range(4)]
-            found.append(
-                RoundDeflection(body=index, radii=length * radii, derivatives=np.array(derivatives)[..., None, :])
-            )
-    return tuple(found)
+    factors = np.array([one.per_elevation(towards) for one in responses])[..., None]
+    length = model.basin.units.length
+    for index, modes in model.plate_modes.items():
+        radii = radii_of(index)
+        values = modes.shapes.bent(radii / length) / length ** np.arange(4.0)[:, None, None]
+        bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
+        amplitudes, scattered = (
+            factors * np.array([getattr(one, name) for one in bent]) for name in ("amplitudes", "scattered")
+        )
+        uncertain = errors[:, None, None] * scattered @ values[0][:, None], _LAST * amplitudes @ values[1][:, None]
+        yield RoundDeflection(
+            body=index,
+            radii=radii,
+            derivatives=(amplitudes @ values[0][:, None])[..., None, :],
+            uncertain=np.array(uncertain)[..., None, :],
+        )
+
+
+def radii_along(tank: Tank, index: int, positions: int) -> Floats:
+    """Return radii of a round plate at equal distances, of half as many points as along a diameter."""
+    plate = plate_of(tank.bodies[index])
+    return np.linspace(plate.inner_radius, plate.radius, (positions + 1) // 2, dtype=np.float64)
 
 
 def joined(parts: list[RoundDeflection]) -> RoundDeflection:
     """Return the deflections of a plate of the orders 0, 1 … as one."""
-    return replace(parts[0], derivatives=np.concatenate([part.derivatives for part in parts], axis=-2))
+    return replace(
+        parts[0],
+        derivatives=np.concatenate([part.derivatives for part in parts], axis=-2),
+        uncertain=np.concatenate([part.uncertain for part in parts], axis=-2),
+    )
 
 
 def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDeflection:
-    """Return the deflection of a round plate along the diameter of the waves, and its largest strain and stress.
+    """Return the deflection of a round plate along the diameter of the waves.
 
     Args:
         tank: the sea in SI units.
         found: the deflections of all orders.
-        error: of the deflection relative to the larger of it and the wave, shape (frequencies,); those of its
-            derivatives are not estimated.
+        error: of the deflection relative to the larger of it and the wave, shape (frequencies,).
     """
     plate = plate_of(tank.bodies[found.body])
-    rigidity = plate.flexural_rigidity if plate.bends else 0.0
-    deflection, along, across, _, slope = _polar(found)
-    moment = rigidity * (along + plate.poisson_ratio * across)
+    deflection = found.derivatives[0]
+    along = _polar(found.radii, found.derivatives)[0]
+    moment, shear = _loads(plate, found.radii, found.derivatives)
+    moment_error, shear_error = (
+        np.abs(part).sum(axis=(0, -2)).max(axis=-1) + _left_out(whole)
+        for part, whole in zip(
+            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True
+        )
+    )
     orders = np.arange(deflection.shape[-2])[:, None]
     behind = (-1.0) ** orders
 
@@ -75,45 +109,62 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
         return np.concatenate([left[..., : left.shape[-1] - is_disc], values.sum(axis=-2)], axis=-1)
 
     is_disc = int(found.radii[0] == 0.0)
-    strain, stress = _largest(plate, found)
     return PlateDeflection(
         body=found.body,
         positions=np.concatenate([-found.radii[is_disc:][::-1], found.radii]),
         deflection=whole(deflection),
         bending_moment=whole(moment),
-        shear_force=whole(rigidity * slope, -1.0),
-        deflection_error=error[:, None] * np.maximum(np.abs(deflection).max(axis=(-2, -1)), 1.0),
-        bending_moment_error=np.full(moment.shape[:2], np.nan),
-        shear_force_error=np.full(moment.shape[:2], np.nan),
-        largest_strain=strain,
-        largest_stress=stress,
+        shear_force=whole(shear, -1.0),
+        deflection_error=error[:, None] * np.maximum(np.abs(deflection).max(axis=(-2, -1)), 1.0) + _left_out(deflection),
+        bending_moment_error=moment_error,
+        shear_force_error=shear_error,
+        strain=None if plate.thickness is None else whole(0.5 * plate.thickness * along),
     )
 
 
-def _polar(found: RoundDeflection) -> tuple[np.ndarray, ...]:
-    """Wₙ, the curvatures along and across the radius, the twist, and ∂(ΔₙWₙ)/∂r, each as the deflections.
+def with_largest(tank: Tank, plate: PlateDeflection, found: RoundDeflection) -> PlateDeflection:
+    """Return a deflection with the largest strain and stress of the plate."""
+    strain, stress = _largest(plate_of(tank.bodies[found.body]), found)
+    return replace(plate, largest_strain=strain, largest_stress=stress)
+
+
+def _left_out(orders: np.ndarray) -> Floats:
+    """What the orders left out add to a sum over the orders anywhere, if they go on as the last two, shape (frequencies,
+    waves)."""
+    sizes = np.abs(orders).max(axis=-1)
+    before, last = sizes[..., -2], sizes[..., -1]
+    falls = last < _SLOWEST * before
+    ratio = np.divide(last, before, out=np.full_like(last, _SLOWEST), where=falls)
+    left: Floats = _MARGIN * last * ratio / (1.0 - ratio)
+    return left
+
+
+def _loads(plate: RoundPlate, radii: Floats, derivatives: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bending moment and shear force along the radius, each as the deflections."""
+    along, across, _, slope = _polar(radii, derivatives)
+    rigidity = plate.flexural_rigidity if plate.bends else 0.0
+    return rigidity * (along + plate.poisson_ratio * across), rigidity * slope
+
+
+def _polar(radii: Floats, derivatives: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The curvatures along and across the radius, the twist, and ∂(ΔₙWₙ)/∂r, each as the deflections.
 
     On the axis, where Wₙ ~ rⁿ, they are limits.
     """
-    value, first, second, third = found.derivatives
-    n, r = np.arange(value.shape[-2])[:, None], found.radii
+    value, first, second, slope = derivatives
+    n, r = np.arange(value.shape[-2])[:, None], radii
     on_axis = r == 0.0
     r = np.where(on_axis, 1.0, r)
     across = np.where(on_axis, second * (1.0 - 0.5 * n**2), first / r - n**2 * value / r**2)
     twist = np.where(on_axis, -0.5 * n * second, -n * (first / r - value / r**2))
-    slope = np.where(
-        on_axis,
-        third * (1.5 - n**2 / 6.0),
-        third + second / r - (1.0 + n**2) * first / r**2 + 2.0 * n**2 * value / r**3,
-    )
-    return value, second, across, twist, slope
+    return second, across, twist, slope
 
 
 def _largest(plate: RoundPlate, found: RoundDeflection) -> tuple[Floats | None, Floats | None]:
     """Largest principal strain and stress at the faces of a plate, over all its points and times."""
     if plate.thickness is None or not plate.bends:
         return None, None
-    _, along, across, twist, _ = _polar(found)
+    along, across, twist, _ = _polar(found.radii, found.derivatives)
     angles = np.linspace(0.0, np.pi, _ANGLES) * np.arange(along.shape[-2])[:, None]
     cosine, sine = np.cos(angles), np.sin(angles)
     half_sum, half_difference = (

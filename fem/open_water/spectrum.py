@@ -25,10 +25,12 @@ from hydroelastic.fem.open_water.response import incident_places, outcome, respo
 from hydroelastic.fem.open_water.results import IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_rows import (
+    along_plates,
     motion_errors,
     order_of_motions,
-    plate_statistics,
+    points_of_plates,
     response_rows,
+    statistics_along,
 )
 from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
@@ -77,6 +79,10 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
         request: spectrum, duration, points.
     """
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    while _bends(attempts[-1].result, request, problem.tolerance):
+        # No other analysis asks for these orders: their solvers need not be kept.
+        order = attempts[-1].result.order + 1
+        attempts.append(_curves(replace(problem.of_order(order), solvers={}), request))
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas) for one in attempts]
     table = _table(problem, request, curves)
@@ -90,6 +96,14 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
         error=max(table.largest_error("relative_error"), *(one.error for one in attempts)),
     )
+
+
+def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
+    """Whether the waves of an order bend a round plate by more than the tolerance, relative to the highest waves."""
+    model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
+    bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
+    largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)
+    return largest > tolerance * float(weights.max())
 
 
 def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
@@ -150,11 +164,16 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
     errors = np.max([one.errors for one in curves], axis=0)
+    plates = list(along_plates(problem.tank, request, curves, motions, drag))
     rows = response_rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
     deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
+    names = [(row.name, row.unit) for row in rows]
+    for name, unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
+        names.append((name, unit))
+        transfer, deviations = np.column_stack([transfer, values]), np.column_stack([deviations, off])
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)
     order, dofs = order_of_motions(models)
@@ -169,14 +188,14 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         duration=request.duration,
         omega=omegas,
         density=density,
-        quantities=tuple(row.name for row in rows),
+        quantities=tuple(name for name, _ in names),
         transfer=transfer,
         response_density=np.abs(transfer) ** 2 * density[:, None],
         relative_error=errors,
         responses=tuple(
             IrregularResponse(
-                quantity=row.name,
-                unit=row.unit,
+                quantity=name,
+                unit=unit,
                 significant_amplitude=float(told.significant_amplitude[place]),
                 largest_amplitude=float(told.largest_amplitude[place]),
                 zero_crossing_period=float(told.zero_crossing_period[place]),
@@ -185,15 +204,19 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
                 truncation_error=float(told.truncation_error[place]),
                 transfer_error=float(told.transfer_error[place]),
             )
-            for place, row in enumerate(rows)
+            for place, (name, unit) in enumerate(names)
         ),
         dofs=dofs,
         mean_drift_force=drift,
         mean_drift_error=drift_error,
         mean_absorbed_power=_mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
-        # Sections alone have beams, and one order.
-        plates=tuple(plate_statistics(request, curves[0], motions, drag)),
+        plates=tuple(
+            statistics_along(
+                request, omegas, plate, getattr(problem.tank.bodies[plate.body], "thickness", request.thickness)
+            )
+            for plate in plates
+        ),
     )
 
 
@@ -257,15 +280,15 @@ def _mean_drift(
         if len(curves[0].responses[0].incidence.planes) > 1:
             return nan, nan
         known = {
-            order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
-            for order, own, each in zip(problem.tank.orders, curves, parts, strict=True)
+            own.order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
+            for own, each in zip(curves, parts, strict=True)
         }
         forces, errors = _drift_of_orders(
             problem,
             request,
             omegas,
             known,
-            {order: own.errors for order, own in zip(problem.tank.orders, curves, strict=True)},
+            {own.order: own.errors for own in curves},
         )
     else:
         units = curves[0].solver.model.basin.units

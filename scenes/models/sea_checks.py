@@ -106,12 +106,15 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 )
                 continue
             body = scene.body[point.body - 1]
-            if not isinstance(body, AnyFloat) and not body.start <= point.at[0] <= body.end:
+            is_plate = isinstance(body, SeaPlate)
+            place = abs(point.at[0]) if is_plate else point.at[0]
+            if not isinstance(body, AnyFloat) and not body.start <= place <= body.end:
+                what, allowed = ("plate", "|x|") if is_plate else ("beam", "x")
                 yield problem_at(
                     (*where, "at"),
                     None,
-                    f"x = {point.at[0]:g} m does not lie on the beam, [[body]] number {point.body}",
-                    allowed=f"x from {body.start:g} to {body.end:g} m",
+                    f"x = {point.at[0]:g} m does not lie on the {what}, [[body]] number {point.body}",
+                    allowed=f"{allowed} from {body.start:g} to {body.end:g} m",
                 )
         low = analysis.spectrum.band[0]
         if analysis.highest_omega is not None and analysis.highest_omega <= 1.1 * low:

@@ -10,9 +10,18 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 from open_cases import complex_of, stored
+from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.bodies.round_plate import RoundShapes
-from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
+from hydroelastic.fem.open_water.requests import (
+    ImpulseResponseRequest,
+    MotionRequest,
+    RadiationRequest,
+    RegularWave,
+    ResonanceRequest,
+    ResponseRequest,
+    SpectrumRequest,
+)
 from hydroelastic.fem.open_water.results import PlateDeflection, RoundDeflection
 from hydroelastic.fem.open_water.round_plates import along_diameter, with_largest
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
@@ -21,6 +30,7 @@ from hydroelastic.modal.plate.line_modes import PlateLine, dry_modes
 from hydroelastic.physics.geometry import Geometry
 from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import tank
+from hydroelastic.physics.wave_spectrum import PeakedSpectrum
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.open_water.physics import open_water_problem
 
@@ -91,7 +101,7 @@ def test_deflection_and_scattered_waves_agree_with_the_references(name: str, tol
     for place, loads in LOADS.get(name, {}).items():
         for found, exact in zip(("bending_moment", "shear_force"), loads, strict=True):
             told = getattr(table.plates[0], f"{found}_error")[0, 0]
-            assert abs(getattr(table.plates[0], found)[0, 0, place] - exact) < told < 3e-4 * abs(loads[1])
+            assert abs(getattr(table.plates[0], found)[0, 0, place] - exact) < told < 3e-3 * abs(loads[1])
     # What the orders that are left out bend and scatter is below the tolerance.
     assert np.abs(scattered[count:]).max(initial=0.0) < tolerance > np.abs(edge[count:]).max(initial=0.0)
     assert abs(table.energy_residual[0, 0]) < 10.0 * tolerance
@@ -158,7 +168,9 @@ def test_moments_strain_and_stress_are_those_of_polynomials(
         bodies=(plate,),
         geometry=Geometry(kind="revolved"),
     )
-    orders_of = RoundDeflection(body=0, radii=radii, derivatives=derivatives, uncertain=0.0 * np.array([derivatives] * 2))
+    orders_of = RoundDeflection(
+        body=0, radii=radii, derivatives=derivatives, uncertain=0.0 * np.array([derivatives] * 2)
+    )
     found = with_largest(sea, along_diameter(sea, orders_of, np.array([1e-6])), orders_of)
     # Rounding of sums of a few numbers of order 10.
     np.testing.assert_allclose(found.bending_moment[0, 0], 5.0 * moment(found.positions), atol=1e-12)
@@ -174,7 +186,9 @@ def test_moments_strain_and_stress_are_those_of_polynomials(
 @pytest.mark.parametrize("order", [0, 1, 3])
 def test_loads_of_dry_modes_follow_from_their_inertia(inner: float, order: int) -> None:
     """∂(ΔₙW)/∂r and W″ by the load κ⁴W against derivatives of the polynomials, which are exact of low modes."""
-    plate = RoundPlate(radius=1.0, inner_radius=inner, flexural_rigidity=3.0, mass_per_area=1.0, tension=2.0, order=order)
+    plate = RoundPlate(
+        radius=1.0, inner_radius=inner, flexural_rigidity=3.0, mass_per_area=1.0, tension=2.0, order=order
+    )
     shapes, r = RoundShapes(plate, 28, spare=0), np.linspace(max(inner, 0.2), 1.0, 9)
     value, first, second, third = (shapes.values(r, number)[:4] for number in range(4))
     slope = third + second / r - (1.0 + order**2) * first / r**2 + 2.0 * order**2 * value / r**3
@@ -196,7 +210,9 @@ def errors_and_told(plate: PlateDeflection, known: PlateDeflection) -> Iterator[
 @pytest.mark.parametrize(
     ("body", "depth", "omega"),
     [
-        pytest.param({"radius": 1.0, "youngs_modulus": 1e6, "thickness": 0.02, "mass_per_area": 5.0}, 0.5, 2.5, id="soft"),
+        pytest.param(
+            {"radius": 1.0, "youngs_modulus": 1e6, "thickness": 0.02, "mass_per_area": 5.0}, 0.5, 2.5, id="soft"
+        ),
         pytest.param({"radius": 1.0, "flexural_rigidity": 3e3, "mass_per_area": 50.0}, math.inf, 3.0, id="stiff"),
         pytest.param(
             {"outline": "ring", "radius": 2.0, "inner_radius": 1.0, "flexural_rigidity": 300.0, "mass_per_area": 10.0},
@@ -263,3 +279,60 @@ def test_bending_resonances_are_found_and_counted() -> None:
     assert solution.status == "ok"
     assert any(label.is_elastic for label in table.labels)
     assert np.all(table.omega.imag < 0.0)
+
+
+@pytest.mark.slow
+def test_irregular_waves_are_regular_ones_summed() -> None:
+    """Transfer functions at points on both sides of the axis, of all orders together, against regular waves."""
+    body = {"radius": 1.0, "youngs_modulus": 1e6, "thickness": 0.02, "poisson_ratio": 0.4, "mass_per_area": 5.0}
+    spectrum = PeakedSpectrum(height=0.1, period=3.0, enhancement=3.3)
+    request = SpectrumRequest(spectrum=spectrum, words="", points=((0, (0.5, 0.0)), (0, (-0.7, 0.0))), positions=11)
+    solution = solved(body, 2.0, 1e-3, request)
+    assert solution.status == "ok"
+    (found,) = solution.spectrum
+    omegas = (2.0, 3.0, 4.5)
+    (regular,) = solved(body, 2.0, 1e-4, ResponseRequest(omega=omegas, positions=21)).response
+    (plate,) = regular.plates
+    assert plate.strain is not None
+    for quantity, known in (
+        ("heave", regular.amplitudes[:, 0, 0]),
+        ("point 1 up", plate.deflection[:, 0, 15]),
+        ("point 2 up", plate.deflection[:, 0, 3]),
+        ("point 1 bending moment", plate.bending_moment[:, 0, 15]),
+        ("point 2 strain", plate.strain[:, 0, 3]),
+    ):
+        transfer = found.transfer[:, found.quantities.index(quantity)]
+        between = CubicSpline(found.omega, transfer)(omegas)
+        np.testing.assert_allclose(between, known, atol=2e-3 * np.abs(known).max())
+    # At x = 0.5 m the most probable largest stress is 6M/h² with the moment there.
+    (along,) = found.plates
+    (moment,) = [one for one in found.responses if one.quantity == "point 1 bending moment"]
+    place = int(np.argmin(np.abs(along.positions - 0.5)))
+    assert along.largest_stress is not None
+    assert along.largest_stress[place] == pytest.approx(6.0 / 0.02**2 * moment.largest_amplitude, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_motions_of_shapes_settle_to_those_in_regular_waves() -> None:
+    """Of several orders, with impulse responses whose a∞ is that of the limit of infinite frequency."""
+    body = {"radius": 1.0, "flexural_rigidity": 700.0, "mass_per_area": 5.0}
+    omega, times = 2.5, (40.0, 40.7, 41.9)
+    wave = RegularWave(omega=omega, amplitude=0.1, phase=0.4)
+    solution = solved(
+        body,
+        2.0,
+        1e-3,
+        ImpulseResponseRequest(times=(0.0, 0.5), elastic_modes=2),
+        MotionRequest(times=times, waves=(wave,), ramp=5.0, elastic_modes=2),
+        RadiationRequest(omega=(omega, math.inf), elastic_modes=2),
+    )
+    assert solution.status == "ok"
+    (impulse,), (motion,), (radiation,) = solution.impulse_response, solution.motion, solution.radiation
+    assert impulse.dofs == motion.dofs == radiation.dofs == ("heave", "pitch", "elastic 0-1", "elastic 2-1")
+    size = radiation.added_mass[1].max()
+    np.testing.assert_allclose(impulse.infinite_frequency_added_mass, radiation.added_mass[1], atol=1e-6 * size)
+    (table,) = solved(body, 2.0, 1e-4, ResponseRequest(omega=(omega,))).response
+    known = table.amplitudes[0, 0, [table.dofs.index(dof) for dof in motion.dofs]]
+    turned = (np.exp(-1j * omega * np.array(times))[:, None] * 0.1 * np.exp(0.4j) * known).real
+    # The further shapes, which the motion leaves out, change these by 1e-3 of the largest.
+    np.testing.assert_allclose(motion.displacement, turned, atol=3e-3 * np.abs(turned).max())

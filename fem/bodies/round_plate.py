@@ -132,7 +132,6 @@ class RoundShapes:
         values: NDArray[np.float64] = (self._modes.values(inside, derivative)[:, : self.count] * self._factors).T
         return values
 
-
     def bent(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return W, W′, W″ and ∂(ΔₙW)/∂r at radii by the loads that bend the plate like its shapes, and the part of
         them in the last third of the polynomials, shape (2, 4, shapes, points); of shapes without `spare` polynomials.
@@ -150,7 +149,8 @@ class RoundShapes:
         return values
 
     def _laplacians(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return Δₙw and its derivative at radii, and the part of both in the last polynomials, shape (2, 2, shapes, points).
+        """Return Δₙw and its derivative at radii, and the part of both in the last polynomials, shape (2, 2, shapes,
+        points).
 
         With u = DΔₙw − Tw the load is Δₙu, and u = (1 − ν)D(w′/r − n²w/r²) − Tw at free edges. Sums over the shapes
         converge faster than those of the derivatives of w.
@@ -197,9 +197,7 @@ class _Upwards:
         self._shapes, self._points = shapes, np.empty((0, 0))
         self._values = self._points
 
-    def __call__(
-        self, points: NDArray[np.float64], normals: NDArray[np.float64], number: int
-    ) -> NDArray[np.float64]:
+    def __call__(self, points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
         if points is not self._points:
             self._points, self._values = points, self._shapes.values(points[0])
         upwards: NDArray[np.float64] = self._values[number] * normals[1]

@@ -34,8 +34,8 @@ from hydroelastic.fem.open_water.requests import (
 )
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.fem.open_water.round_plates import along_diameter, joined, with_largest
+from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.round_plates import along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.round_plates import RoundPlate
@@ -136,14 +136,20 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
     while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
-        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
+        hulls = found[0].table.hulls if found else ()
+        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request, hulls))
     return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
 
 
 def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
-    """Whether an order scatters waves or bends a plate by more than the tolerance."""
+    """Whether an order scatters waves, bends a plate or presses on a hull by more than the tolerance."""
     assert table.partial_waves is not None
-    found = (table.partial_waves, *(plate.derivatives[0] for plate in table.round_plates))
+    weight = problem.tank.layers[0].density * problem.tank.gravity
+    found = (
+        table.partial_waves,
+        *(plate.derivatives[0] for plate in table.round_plates),
+        *(hull.pressure / weight for hull in table.hulls),
+    )
     return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
@@ -179,10 +185,24 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=error,
         missed_peaks=tuple(peaks),
-        plates=tuple(
-            with_largest(problem.tank, along_diameter(problem.tank, plate, error), plate) for plate in plates
-        ),
+        plates=tuple(with_largest(problem.tank, along_diameter(problem.tank, plate, error), plate) for plate in plates),
         round_plates=plates,
+        hulls=tuple(_around(list(parts)) for parts in zip(*(table.hulls for table in tables), strict=True)),
+    )
+
+
+def _around(parts: list[HullPressure]) -> HullPressure:
+    """Return the pressures of the orders 0, 1 … on a solid, along its section from θ = π to θ = 0."""
+    orders = np.stack([part.pressure for part in parts], axis=2)
+    signs = (-1.0) ** np.arange(len(parts))[:, None]
+    points = parts[0].points
+    sides = (signs * orders)[..., ::-1].sum(axis=2), orders.sum(axis=2)
+    return HullPressure(
+        body=parts[0].body,
+        points=np.concatenate([points[::-1] * [-1.0, 1.0], points]),
+        pressure=np.concatenate(sides, axis=-1),
+        pressure_error=np.sum([part.pressure_error for part in parts], axis=0) + left_out(orders),
+        partial_pressures=orders,
     )
 
 

@@ -1,8 +1,8 @@
 """Further dry modes of a round plate, bent by the pressure and the forces that the modes of the field model leave.
 
 The dry modes k beyond those of the model have amplitudes aₖ = fₖ/(Kₖ − λmₖ), with the force fₖ of the waves and of
-springs and dampers in the motion by the modes of the model. What they add to the waves is of second order: its effect on
-an outgoing wave is, by reciprocity, Σ aₖ times the pressure on mode k of the wave that returns. Derivatives of the
+springs and dampers in the motion by the modes of the model. What they add to the waves is of second order: its effect
+on an outgoing wave is, by reciprocity, Σ aₖ times the pressure on mode k of the wave that returns. Derivatives of the
 deflection then converge as fast as the pressure allows (mode acceleration, see `beam_loads`).
 """
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from hydroelastic.fem.open_water.field_model import OpenModel
     from hydroelastic.fem.open_water.frequency import OpenResponse
 
-# With so many further modes the moment is accurate to 1e-8 and the shear force to 4e-6 of the largest, of discs and rings
-# with loads like s ln s at their edges.
+# With so many further modes the moment is accurate to 1e-8 and the shear force to 4e-6 of the largest, of discs and
+# rings with loads like s ln s at their edges.
 _FURTHER = 36
 
 

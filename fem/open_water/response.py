@@ -19,7 +19,7 @@ from hydroelastic.fem.open_water.outside import attachment_paths
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
@@ -60,12 +60,15 @@ class _Sweep:
     table: ResponseTable
 
 
-def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
+def solve_response(
+    problem: OpenWaterProblem, request: ResponseRequest, like: tuple[HullPressure, ...] = ()
+) -> ResponseSolution:
     """Solve for the motion in waves to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
         request: frequencies and direction of the incident waves.
+        like: pressures along all hulls at whose points those of this azimuthal order are wanted.
     """
     omegas = np.array(request.omega)
     low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
@@ -101,25 +104,33 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(found.swept.solutions, table.relative_error))
+        table = replace(table, **_on_hulls(request, found.swept.solutions, table.relative_error, like))
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(problem.tank, request, found.solver, table))
     if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
         # Of several azimuthal orders each would have frequencies of its own.
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
-        table = replace(table, curve=_table(request, problem.tank, model, curves.omegas, curves.responses, curves.errors))
+        table = replace(
+            table, curve=_table(request, problem.tank, model, curves.omegas, curves.responses, curves.errors)
+        )
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _on_hulls(solutions: list[OpenResponse], errors: np.ndarray) -> dict[str, Any]:
-    """Pressures along hulls, and in one liquid the drift force by the field beside the bodies (collective)."""
+def _on_hulls(
+    request: ResponseRequest, solutions: list[OpenResponse], errors: np.ndarray, like: tuple[HullPressure, ...]
+) -> dict[str, Any]:
+    """Pressures along hulls, and of sections in one liquid the drift force by the field beside the bodies
+    (collective)."""
     from hydroelastic.fem.open_water.hull import hull_pressure
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
-    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, errors, index) for index in hulls)}
-    if len(tank.layers) == 1:
+    towards, points = direction_of(request.waves_from), {one.body: one.points for one in like}
+    found: dict[str, Any] = {
+        "hulls": tuple(hull_pressure(solutions, errors, index, towards, points.get(index)) for index in hulls)
+    }
+    if len(tank.layers) == 1 and not tank.geometry.is_revolved:
         forces = [
             np.array([one.near_field_drift(place) for place in range(len(one.incident))])
             / one.incidence.elevations[one.incident] ** 2

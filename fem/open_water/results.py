@@ -121,15 +121,19 @@ class HullPressure:
 
     Attributes:
         body: its index among the bodies.
-        points: (p, 2) x and y from the left end of the waterplane around the hull, m.
+        points: (p, 2) x and y from the left end of the waterplane around the hull, m; of a solid of revolution those of
+            its section along the waves, and in one azimuthal order those of half of it.
         pressure: (n, w, p) complex amplitudes per metre of elevation, Pa/m.
         pressure_error: (n, w) estimated error anywhere on the hull, Pa/m.
+        partial_pressures: (n, w, orders, half of p) pₙ of Σ pₙ cos nθ about an axis, at the points of x ≥ 0 in their
+            order; ``None`` of sections.
     """
 
     body: int
     points: Floats
     pressure: Complexes
     pressure_error: Floats
+    partial_pressures: Complexes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -296,7 +300,9 @@ class IrregularResponse:
 
 @dataclass(frozen=True, kw_only=True)
 class PlateStatistics:
-    """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width. Each is of shape (p,).
+    """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width.
+
+    Each is of shape (p,).
 
     Attributes:
         body: its index among the bodies.

@@ -95,10 +95,8 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
     along = _polar(found.radii, found.derivatives)[0]
     moment, shear = _loads(plate, found.radii, found.derivatives)
     moment_error, shear_error = (
-        np.abs(part).sum(axis=(0, -2)).max(axis=-1) + _left_out(whole)
-        for part, whole in zip(
-            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True
-        )
+        np.abs(part).sum(axis=(0, -2)).max(axis=-1) + left_out(whole)
+        for part, whole in zip(_loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True)
     )
     orders = np.arange(deflection.shape[-2])[:, None]
     behind = (-1.0) ** orders
@@ -115,7 +113,7 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
         deflection=whole(deflection),
         bending_moment=whole(moment),
         shear_force=whole(shear, -1.0),
-        deflection_error=error[:, None] * np.maximum(np.abs(deflection).max(axis=(-2, -1)), 1.0) + _left_out(deflection),
+        deflection_error=error[:, None] * np.maximum(np.abs(deflection).max(axis=(-2, -1)), 1.0) + left_out(deflection),
         bending_moment_error=moment_error,
         shear_force_error=shear_error,
         strain=None if plate.thickness is None else whole(0.5 * plate.thickness * along),
@@ -128,9 +126,15 @@ def with_largest(tank: Tank, plate: PlateDeflection, found: RoundDeflection) -> 
     return replace(plate, largest_strain=strain, largest_stress=stress)
 
 
-def _left_out(orders: np.ndarray) -> Floats:
-    """What the orders left out add to a sum over the orders anywhere, if they go on as the last two, shape (frequencies,
-    waves)."""
+def left_out(orders: np.ndarray) -> Floats:
+    """Return what the orders left out add to a sum over the orders anywhere, if they go on as the last two.
+
+    Args:
+        orders: shape (frequencies, waves, orders, points).
+
+    Returns:
+        Shape (frequencies, waves).
+    """
     sizes = np.abs(orders).max(axis=-1)
     before, last = sizes[..., -2], sizes[..., -1]
     falls = last < _SLOWEST * before

@@ -122,8 +122,8 @@ def along_plates(
 def points_of_plates(
     tank: Tank, request: SpectrumRequest, omegas: Floats, plates: list[PlateDeflection]
 ) -> Iterator[tuple[str, str, np.ndarray, np.ndarray]]:
-    """Yield name, unit, transfer function and its error, shape (n,), of deflection, moment and strain at points of round
-    plates."""
+    """Yield name, unit, transfer function and its error, shape (n,), of deflection, moment and strain at points of
+    round plates."""
     along = {plate.body: plate for plate in plates}
     for number, (index, point) in enumerate(request.points, 1):
         body = tank.bodies[index]

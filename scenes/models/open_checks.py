@@ -156,13 +156,6 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        if getattr(analysis, "hull_pressures", False):
-            yield problem_at(
-                ("analysis", index, "hull_pressures"),
-                True,
-                "it is computed for sections only, and the bodies are solids of revolution",
-                remedy="Leave it out",
-            )
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
             yield problem_at(
                 ("analysis", index, "largest_damping"),

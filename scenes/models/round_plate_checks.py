@@ -11,6 +11,7 @@ from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP, touching
 from hydroelastic.scenes.models.tank_parts import TankParts
 
+
 def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield plates at one level that overlap or touch."""
     for first, inner, second, outer in touching(scene, scene.plates):

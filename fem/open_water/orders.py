@@ -35,7 +35,7 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.fem.open_water.round_plates import along_diameter, joined, left_out, with_largest
+from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.round_plates import RoundPlate
@@ -147,7 +147,7 @@ def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
     weight = problem.tank.layers[0].density * problem.tank.gravity
     found = (
         table.partial_waves,
-        *(plate.derivatives[0] for plate in table.round_plates),
+        *(plate.derivatives[0] / OF_LOADS for plate in table.round_plates),
         *(hull.pressure / weight for hull in table.hulls),
     )
     return max(float(np.abs(values).max()) for values in found) > problem.tolerance

@@ -23,6 +23,9 @@ from hydroelastic.fem.open_water.results import Floats, PlateDeflection, RoundDe
 from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
+OF_LOADS = 0.1
+"""Deflection of an order, over the tolerance, below which higher ones are left out: their loads fall more slowly."""
+
 # Angles from 0 to π, and phases of half a period, among which the largest strain is sought.
 _ANGLES, _PHASES = 73, 24
 # Ratio of successive orders beyond the last ones, at most, and a margin of what these add.

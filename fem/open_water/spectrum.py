@@ -23,6 +23,7 @@ from hydroelastic.fem.open_water.radiation import estimated_places, relative_dif
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, SpectrumTable
+from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_rows import (
     along_plates,
@@ -99,11 +100,11 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
 
 
 def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
-    """Whether the waves of an order bend a round plate by more than the tolerance, relative to the highest waves."""
+    """Whether the waves of an order bend a round plate by more than a part of the tolerance, relative to the highest."""
     model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
     bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
     largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)
-    return largest > tolerance * float(weights.max())
+    return largest > OF_LOADS * tolerance * float(weights.max())
 
 
 def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:

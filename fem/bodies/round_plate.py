@@ -157,7 +157,7 @@ class RoundShapes:
         """
         count = self.count
         plate, order = self._plate, float(self._plate.order or 0)
-        nodes, weights = leggauss(2 * count + self._plate.order + 4)
+        nodes, weights = leggauss(2 * count + int(order) + 4)
         half = 0.5 * (plate.radius - plate.inner_radius)
         inside = plate.inner_radius + half * (1.0 + nodes)
         parts = [self.values(inside, 1), order / inside * self.values(inside)]
@@ -194,8 +194,9 @@ class _Upwards:
     """Normal displacements by shapes, all of which are evaluated together at the same points."""
 
     def __init__(self, shapes: RoundShapes) -> None:
-        self._shapes, self._points = shapes, np.empty((0, 0))
-        self._values = self._points
+        self._shapes = shapes
+        self._points: NDArray[np.float64] = np.empty((0, 0))
+        self._values: NDArray[np.float64] = self._points
 
     def __call__(self, points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
         if points is not self._points:

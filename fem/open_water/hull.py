@@ -63,16 +63,17 @@ def hull_pressure(
         places = _nearest(model, index, (points - origin) / units.length)
     values = np.zeros((len(responses), len(responses[0].incident), len(points)), dtype=complex)
     rough = np.zeros(values.shape[:2])
-    for place in np.ndindex(rough.shape):
-        values[(*place, places.numbers)], rough[place] = _pressures(
-            responses[place[0]], index, place[1], towards, places
-        )
+    for row, response in enumerate(responses):
+        for number in range(len(response.incident)):
+            values[row, number, places.numbers], rough[row, number] = _pressures(
+                response, index, number, towards, places
+            )
     comm.Allreduce(MPI.IN_PLACE, values)
     comm.Allreduce(MPI.IN_PLACE, rough, op=MPI.MAX)
     return HullPressure(
         body=index,
         points=points,
-        pressure=weight * values,
+        pressure=np.asarray(weight * values),
         pressure_error=weight * (rough + errors[:, None] * np.abs(values).max(axis=2)),
     )
 
@@ -83,7 +84,8 @@ def _groups(model: OpenModel, index: int) -> Iterator[FacetGroup]:
 
 def _of_mesh(model: OpenModel, index: int) -> tuple[np.ndarray, _Places]:
     """Points of all facets around the hull from its left contact point, below (collective)."""
-    cells, reference, own = [np.zeros(0, dtype=int)], [np.zeros((0, 2))], [np.zeros((0, 2))]
+    cells: list[np.ndarray] = [np.zeros(0, dtype=int)]
+    reference, own = [np.zeros((0, 2))], [np.zeros((0, 2))]
     for group in _groups(model, index):
         at = group.reference_points(_ALONG)
         own.append(group.physical_points(at).reshape(-1, 2))

@@ -56,7 +56,8 @@ def deflections_of_order(
     length = model.basin.units.length
     for index, modes in model.plate_modes.items():
         radii = radii_of(index)
-        values = modes.shapes.bent(radii / length) / length ** np.arange(4.0)[:, None, None]
+        scaled: Floats = radii / length
+        values = modes.shapes.bent(scaled) / length ** np.arange(4.0)[:, None, None]
         bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
         amplitudes, scattered = (
             factors * np.array([getattr(one, name) for one in bent]) for name in ("amplitudes", "scattered")

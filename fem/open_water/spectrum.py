@@ -172,8 +172,8 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     transfer = motions @ directions.T * factors
     deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
     names = [(row.name, row.unit) for row in rows]
-    for name, unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
-        names.append((name, unit))
+    for quantity, its_unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
+        names.append((quantity, its_unit))
         transfer, deviations = np.column_stack([transfer, values]), np.column_stack([deviations, off])
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
     density = request.spectrum.density(omegas)

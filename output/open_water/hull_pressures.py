@@ -30,7 +30,7 @@ class Pressure:
     @property
     def azimuths(self) -> Floats | None:
         """Angles θ about the axis of a solid, rad, at which pressures are told."""
-        return None if self.partial is None else np.linspace(0.0, np.pi, _AZIMUTHS)
+        return None if self.partial is None else np.linspace(0.0, np.pi, _AZIMUTHS, dtype=np.float64)
 
     @property
     def around(self) -> Complexes | None:

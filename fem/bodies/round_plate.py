@@ -173,8 +173,8 @@ class RoundShapes:
         system = np.block([[scale[:, None] * energy * scale, scale[:, None] * value], [value.T * scale, corner]])
         loads = np.vstack([-np.diag(self.bending) * scale[:, None], held.T])
         combined = np.linalg.solve(system, loads)[:count] * scale[:, None]
-        combined = (combined + plate.tension * np.eye(count)) / rigidity
-        polynomials = self._modes.coefficients @ (self._factors[:, None] * combined)
+        whole = (combined + plate.tension * np.eye(count)) / rigidity
+        polynomials = self._modes.coefficients @ (self._factors[:, None] * whole)
         degrees = np.arange(len(polynomials))
         is_last = degrees >= count - count // 3
         found = [

@@ -56,7 +56,7 @@ def deflections_of_order(
     length = model.basin.units.length
     for index, modes in model.plate_modes.items():
         radii = radii_of(index)
-        scaled: Floats = radii / length
+        scaled = np.asarray(radii / length, dtype=np.float64)
         values = modes.shapes.bent(scaled) / length ** np.arange(4.0)[:, None, None]
         bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
         amplitudes, scattered = (
@@ -99,8 +99,10 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
     along = _polar(found.radii, found.derivatives)[0]
     moment, shear = _loads(plate, found.radii, found.derivatives)
     moment_error, shear_error = (
-        np.abs(part).sum(axis=(0, -2)).max(axis=-1) + left_out(whole)
-        for part, whole in zip(_loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True)
+        np.abs(part).sum(axis=(0, -2)).max(axis=-1)
+        + left_out(orders)
+        + error[:, None] * np.abs(orders).sum(axis=-2).max(axis=-1)
+        for part, orders in zip(_loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True)
     )
     orders = np.arange(deflection.shape[-2])[:, None]
     behind = (-1.0) ** orders

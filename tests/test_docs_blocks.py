@@ -111,7 +111,7 @@ class Reader:
 
     def take(self, block: Block) -> None:
         """Do what a block says; an assertion fails where it is not true."""
-        if block.language in ("math", "indented") or block.language.startswith("{"):
+        if block.language in ("math", "indented", "slurm") or block.language.startswith("{"):
             return
         rules = {"toml": self._scene, "sh": self._commands, "python": self._python, "text": self._output}
         assert block.language in rules, f"{block.place}: no rule for a block of {block.info!r}"

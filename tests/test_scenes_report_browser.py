@@ -160,12 +160,21 @@ def test_nothing_sticks_out(browser: Browser, reports: Reports, kind: str) -> No
         assert all(right <= given and index == 0 for right, index in boxes)
 
 
+def _frequencies(summary: dict[str, Any]) -> list[tuple[float, float]]:
+    return [(mode["omega"], mode["relative_error"]) for mode in summary["modes"]]
+
+
 # Numbers of summary.json with their errors, as far as digits are shown by them; of the others six or more are shown.
 NUMBERS = {
-    "tank": lambda summary: [(mode["omega"], mode["relative_error"]) for mode in summary["modes"]],
-    "float": lambda summary: [(mode["omega"], mode["relative_error"]) for mode in summary["modes"]],
+    **dict.fromkeys(("tank", "float", "plates", "round tank", "canal"), _frequencies),
     "open": lambda summary: [
         (wavenumber, 1e-5) for table in summary["response"] for wavenumber in np.ravel(table["wavenumbers"])
+    ],
+    "sea": lambda summary: [
+        (number, error)
+        for table in summary["radiation"]
+        for matrix, error in zip(table["added_mass"], table["relative_error"], strict=True)
+        for number in np.diagonal(matrix)
     ],
     "string": lambda summary: [(mode["omega"], 1e-12) for mode in summary["modes"]],
     "thread": lambda summary: [

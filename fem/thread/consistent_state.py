@@ -65,7 +65,8 @@ class ConsistentState:
         self._unknown.x.array[:] = 0.0
         if unstretched and self._forms.model.axial_rigidity < inf:
             return self._solve("unstretched", held, partial(self._acceleration_equations, inf), _SHORT_TIME**2)
-        return self._solve("accelerate", held, self._acceleration_equations, _SHORT_TIME**2)
+        solved = self._solve("accelerate", held, self._acceleration_equations, _SHORT_TIME**2)
+        return solved and not self._solvers["accelerate"].is_singular()
 
     def _solve(self, name: str, held: HeldUnknowns, equations: Any, step: float) -> bool:
         if name not in self._solvers:

@@ -21,6 +21,8 @@ _TOLERANCE = 1e-9
 _MOST_STEPS = 15
 # Of the length, for one change of a position: beyond it the predictor was wrong and the step is too long.
 _FARTHEST = 3.0
+# The least condition number of a matrix that is singular but for rounding, whose pivots may miss zero.
+_SINGULAR = 1e14
 
 
 class HeldUnknowns:
@@ -104,6 +106,14 @@ class StepSolver:
             if length < _TOLERANCE:
                 return count
         return None
+
+    def is_singular(self) -> bool:
+        """Whether the last matrix A is singular but for rounding (collective): ‖A‖ ‖A⁻¹b‖/‖b‖ of a random b tells."""
+        load, response = self._vector.duplicate(), self._vector.duplicate()
+        load.setRandom()
+        self._solver.solve(load, response)
+        norm = PETSc.NormType.NORM_INFINITY
+        return bool(self._matrix.norm(norm) * response.norm(norm) > _SINGULAR * load.norm(norm))
 
     def _assemble(self, held: HeldUnknowns) -> None:
         self._update()

@@ -14,10 +14,17 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from hydroelastic.scenes.models.canal import CanalScene
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.models.values import OrElse
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER
 
 Document = dict[str, Any]
+
+MODELS = dict(SCENE_MODELS) | {"round tank": RoundTankScene, "canal": CanalScene, "level tank": LevelTankScene}
+"""The kinds of scenes, and the tanks that keys of [tank] give a model of their own."""
 
 ODD_TEXTS = (
     "",
@@ -116,17 +123,28 @@ def _numbers(least: float, most: float) -> st.SearchStrategy[float]:
     )
 
 
-def shipped_documents(kind: str) -> list[Document]:
-    """The shipped scenes of a kind as documents."""
+def kind_of(family: str) -> str:
+    """What a scene of one of `MODELS` has as its ``kind``."""
+    return family if family in SCENE_MODELS else "tank"
+
+
+def shipped_documents(family: str) -> list[Document]:
+    """The shipped scenes of one of `MODELS` as documents."""
     parsed = [tomllib.loads(path.read_text(encoding="utf-8")) for path in sorted(SHIPPED_FOLDER.glob("*.toml"))]
-    return [document for document in parsed if document["kind"] == kind]
+    return [document for document in parsed if _family_of(document) == family]
+
+
+def _family_of(document: Document) -> str:
+    tanks = {"round tank": is_round_tank, "canal": is_canal, "level tank": is_level_tank}
+    found = (family for family, fits in tanks.items() if document["kind"] == "tank" and fits(document))
+    return next(found, document["kind"])
 
 
 @st.composite
-def damaged(draw: st.DrawFn, kind: str) -> Document:
-    """A document of a kind, drawn from its model or shipped, damaged in up to three places."""
-    fresh = documents(SCENE_MODELS[kind]).map(lambda document: document | {"kind": kind})
-    shipped = st.sampled_from(shipped_documents(kind))
+def damaged(draw: st.DrawFn, family: str) -> Document:
+    """A document of one of `MODELS`, drawn from it or shipped, damaged in up to three places."""
+    fresh = documents(MODELS[family]).map(lambda document: document | {"kind": kind_of(family)})
+    shipped = st.sampled_from(shipped_documents(family))
     document = deepcopy(draw(st.one_of(fresh, shipped, shipped)))
     if draw(st.booleans()):
         # Good but for some numbers: what must fit together is reached only so.

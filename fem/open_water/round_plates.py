@@ -103,7 +103,9 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
         np.abs(part).sum(axis=(0, -2)).max(axis=-1)
         + left_out(orders)
         + _MARGIN * error[:, None] * np.abs(orders).sum(axis=-2).max(axis=-1)
-        for part, orders in zip(_loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True)
+        for part, orders in zip(
+            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True
+        )
     )
     orders = np.arange(deflection.shape[-2])[:, None]
     behind = (-1.0) ** orders

@@ -100,7 +100,7 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
 
 
 def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
-    """Whether the waves of an order bend a round plate by more than a part of the tolerance, relative to the highest."""
+    """Whether the waves of an order bend a round plate by more than a part of the tolerance."""
     model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
     bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
     largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)

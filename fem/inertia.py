@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.dense_modes import FEW
 from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import SharedAnswer
+
+# Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
+_FEW = 150
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
@@ -80,6 +83,10 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     """As `count_below`, by Sylvester's law from K − σ(M + M_a) bordered by the volume constraints; ``None`` where σ is
     an eigenvalue to working precision."""
     volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
+    if isinstance(answer, SharedAnswer):
+        count = _shared_count(pencil, answer, eigenvalue, volumes)
+        if count is not None:
+            return count
     stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + answer.added_mass)
     # Scaled so that stiff shapes and small elements weigh alike.
     scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
@@ -91,12 +98,29 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
 
 
+def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray) -> int | None:
+    """The same with the surfaces eliminated in their gravity modes; ``None`` where σ is close to one of these."""
+    found, bodies = answer.eliminated(eigenvalue), answer.bodies
+    if found is None:
+        return None
+    negative, left = found
+    first = 0
+    for body in pencil.bodies:
+        left[first : first + body.size, first : first + body.size] -= eigenvalue * body.mass
+        first += body.size
+    left[np.diag_indices(bodies)] += pencil.body_stiffness
+    left[bodies:, :bodies] += volumes[:, :bodies]
+    left[:bodies, bodies:] += volumes[:, :bodies].T
+    scale = 1.0 / np.sqrt(np.abs(np.diag(left)))
+    below = _negative(scale[:, None] * left * scale)
+    return None if below is None else negative + below - len(pencil.constraints) - pencil.zero_mode_count
+
+
 def _negative(matrix: np.ndarray) -> int | None:
     """Number of negative eigenvalues of a symmetric matrix; ``None`` where one is zero to working precision."""
-    if len(matrix) <= FEW:
+    if len(matrix) <= _FEW:
         signs = np.linalg.eigvalsh(matrix)
         return None if np.abs(signs).min(initial=np.inf) <= np.finfo(float).eps else int(np.sum(signs < 0.0))
-    # SciPy's import takes longer than the eigenvalues of a small matrix.
     from scipy.linalg import lapack
 
     # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.

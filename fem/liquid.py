@@ -298,24 +298,39 @@ class LiquidSolver:
                 solution[layer.dofs] -= mean / layer.measure
         self.solves += 1
 
-    def solve_all(self, loads: np.ndarray) -> np.ndarray:
-        """Return A⁺ ``loads`` for many loads at once, on one process, both of shape (N, loads) in Fortran's order."""
-        free, answers = self._local_free, np.zeros(loads.shape, order="F")
-        # The transposed arrays hold one load after the other. Only few unknowns are on the moving surfaces.
-        values = loads.T[:, free]
-        moving = [np.arange(len(loads))[layer.dofs][layer.load != 0.0] for layer in self._closed]
-        for layer, rows in zip(self._closed, moving, strict=True):
-            flux = loads[layer.dofs].sum(axis=0) / layer.measure
-            _, places, own = np.intersect1d(free, rows, assume_unique=True, return_indices=True)
-            values[:, places] -= np.outer(flux, layer.load[layer.load != 0.0][own])
-        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=values.T, comm=PETSc.COMM_SELF)
+    def solve_all(self, coupling: PETSc.Mat) -> np.ndarray:
+        """Return A⁺C for all loads C at once, on one process, both of shape (N, loads), the result in Fortran's order.
+
+        Few unknowns are on the moving surfaces: C is sparse.
+        """
+        (size, count), free = coupling.getSize(), self._local_free
+        place = np.full(size, -1)
+        place[free] = np.arange(len(free))
+        starts, loads, entries = coupling.getValuesCSR()
+        rows = np.repeat(np.arange(size), np.diff(starts))
+        # One load after the other.
+        values, answers = np.zeros((count, len(free))), np.zeros((count, size))
+        seen = place[rows] >= 0
+        values[loads[seen], place[rows[seen]]] = entries[seen]
+        moving = []
+        for layer in self._closed:
+            own = np.zeros(size)
+            own[layer.dofs] = layer.load
+            moving.append(np.flatnonzero(own))
+            inside = np.zeros(size)
+            inside[layer.dofs] = 1.0
+            flux = np.bincount(loads, entries * inside[rows], count) / layer.measure
+            changed = moving[-1][place[moving[-1]] >= 0]
+            values[:, place[changed]] -= np.outer(flux, own[changed])
+        right = PETSc.Mat().createDense((len(free), count), array=values.T, comm=PETSc.COMM_SELF)
         result = right.duplicate()
         self._solver.getPC().getFactorMatrix().matSolve(right, result)
-        answers.T[:, free] = result.getDenseArray().T
-        for layer, rows in zip(self._closed, moving, strict=True):
-            answers[layer.dofs] -= layer.load[layer.load != 0.0] @ answers[rows] / layer.measure
-        self.solves += loads.shape[1]
-        return answers
+        answers[:, free] = result.getDenseArray().T
+        for layer, dofs in zip(self._closed, moving, strict=True):
+            means = answers[:, dofs] @ layer.load[layer.load != 0.0] / layer.measure
+            answers.T[layer.dofs] -= means
+        self.solves += count
+        return answers.T
 
     def _sums(self, values: list[float]) -> np.ndarray:
         """Sums over all processes."""

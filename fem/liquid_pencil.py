@@ -14,7 +14,7 @@ from hydroelastic.fem.liquid import (
     closed_layers,
     constrained_dofs,
 )
-from hydroelastic.fem.liquid_answer import LiquidAnswer, dense, liquid_answer
+from hydroelastic.fem.liquid_answer import LiquidAnswer, liquid_answer
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
@@ -86,7 +86,7 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
     if pencil.coupling.comm.size > 1 or not 0 < pencil.size <= most:
         return None
     assert isinstance(pencil.solver, LiquidSolver)
-    potentials = pencil.solver.solve_all(dense(pencil.coupling))
+    potentials = pencil.solver.solve_all(pencil.coupling)
     columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
     momentum = pencil.momentum.transposeMatMult(columns)
     return liquid_answer(potentials, momentum.getDenseArray(), pencil.stiffness, pencil.body_size)

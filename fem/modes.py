@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics, Operator
-from hydroelastic.fem.dense_modes import FEW, CompletedModes, DenseModes
+from hydroelastic.fem.dense_modes import FEW, DenseModes, projection_errors
 from hydroelastic.fem.direct import configure_direct
+from hydroelastic.fem.mode_energies import energy_shares, residual_of
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
 if TYPE_CHECKING:
@@ -23,10 +24,13 @@ if TYPE_CHECKING:
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
+PROJECTED = 1e-11
+"""Largest relative error of a λ by the projection of a shared answer; above it the whole problem is solved."""
+
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
-# Neighbouring modes that are completed together where the answer of the liquid is known.
+# Neighbouring modes whose ψ is computed together where the answer of the liquid is known.
 _AT_ONCE = 5
 
 
@@ -41,7 +45,7 @@ class Mode:
     Attributes:
         eigenvalue: λ = ω².
         displacement: surface unknowns ζ.
-        potential: ψ, its constant included.
+        shaped: returns ψ, its constant included.
         residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
         body_amplitudes: the body part of ζ, on every process.
         energy: share in the potential energy: body unknowns one by one, then each surface of the liquids.
@@ -49,10 +53,15 @@ class Mode:
 
     eigenvalue: float
     displacement: PETSc.Vec
-    potential: PETSc.Vec
+    shaped: Callable[[], PETSc.Vec]
     residual: float
     body_amplitudes: np.ndarray
     energy: np.ndarray
+
+    @property
+    def potential(self) -> PETSc.Vec:
+        """ψ, its constant included."""
+        return self.shaped()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +80,7 @@ class ModeSet:
         converged: number of converged eigenpairs.
         iterations: restarts of the Krylov–Schur method; LAPACK counts as one.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
-        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
+        projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
     """
 
@@ -84,6 +93,7 @@ class ModeSet:
     iterations: int
     solves: int
     growing: tuple[Mode, ...] = ()
+    projection: np.ndarray | None = None
     eigenvectors: tuple[PETSc.Vec, ...] = ()
 
 
@@ -124,6 +134,11 @@ def solve_modes(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if pencil.answer is not None and not len(pencil.unstable):
+        if isinstance(pencil.answer, SharedAnswer):
+            dense = DenseModes(pencil, pencil.answer, pencil.answer.projection(count))
+            found = _dense_modes(pencil, dense, (count, shapes), tolerance)
+            if found.projection is not None and found.projection.max(initial=0.0) <= PROJECTED:
+                return found
         return _dense_modes(pencil, DenseModes(pencil, pencil.answer), (count, shapes), tolerance)
     from slepc4py import SLEPc  # slow to import
 
@@ -184,45 +199,58 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
     inverses, vectors, iterations = (
         _largest(dense.operator(), count, tolerance) if count else (np.empty(0), np.empty((pencil.size, 0)), 0)
     )
-    count = _visible(inverses) if count else 0
+    count = min(count, _visible(inverses)) if count else 0
     eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
-    amplitudes = dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T
+    found = dense.completed(eigenvalues, vectors)
 
     @cache
-    def shaped(first: int) -> CompletedModes:
+    def shaped(first: int) -> tuple[np.ndarray, np.ndarray]:
         some = slice(first, first + _AT_ONCE)
-        return dense.completed(eigenvalues[some], vectors[:, some])
+        return dense.displacements(found, some), dense.energies(found, some)
+
+    @cache
+    def potentials(first: int) -> np.ndarray:
+        return dense.potentials(found, slice(first, first + _AT_ONCE))
 
     def completed(number: int) -> Mode:
         place = number % _AT_ONCE
-        found = shaped(number - place)
-        displacement, potential = pencil.coupling.createVecs()
-        displacement.array[:] = found.displacements[:, place]
-        potential.array[:] = found.potentials[:, place]
+        displacements, energies = shaped(number - place)
+
+        def potential() -> PETSc.Vec:
+            vector = pencil.coupling.createVecLeft()
+            vector.array[:] = potentials(number - place)[:, place]
+            return vector
+
+        displacement = pencil.coupling.createVecRight()
+        displacement.array[:] = displacements[:, place]
         return Mode(
             eigenvalue=float(eigenvalues[number]),
             displacement=displacement,
-            potential=potential,
-            residual=float(found.residuals[place]),
-            body_amplitudes=found.displacements[: pencil.body_size, place],
-            energy=found.energies[:, place],
+            shaped=cache(potential),
+            residual=float(found.residuals[number]),
+            body_amplitudes=displacements[: pencil.body_size, place],
+            energy=energies[:, place],
         )
 
     return ModeSet(
         eigenvalues=eigenvalues,
-        elastic_amplitudes=amplitudes,
+        elastic_amplitudes=dense.amplitudes(found),
         modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=count,
         iterations=iterations,
         solves=pencil.size,
+        projection=projection_errors(inverses, found.residuals) if dense.is_projected else None,
     )
 
 
 def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
-    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts: by LAPACK where
-    it is small."""
+    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts. Of a small one
+    LAPACK finds all."""
+    if len(operator) <= FEW:
+        inverses, columns = np.linalg.eigh(operator)
+        return inverses[::-1], columns[:, ::-1], 1
     from slepc4py import SLEPc
 
     matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
@@ -232,16 +260,14 @@ def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.nda
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setTolerances(tolerance, 200)
     solver.setDimensions(count, min(2 * count + 12, len(operator)))
-    if len(operator) <= FEW:
-        solver.setType(SLEPc.EPS.Type.LAPACK)
     _, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     vector = matrix.createVecRight()
-    columns = []
+    found = []
     for number in order:
         solver.getEigenvector(int(number), vector)
-        columns.append(vector.array_r.copy())
-    return inverses[order], np.array(columns).T, solver.getIterationNumber()
+        found.append(vector.array_r.copy())
+    return inverses[order], np.array(found).T, solver.getIterationNumber()
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
@@ -354,35 +380,8 @@ def _complete(
     return Mode(
         eigenvalue=eigenvalue,
         displacement=displacement,
-        potential=potential,
-        residual=_residual(pencil, solver, eigenvalue, displacement, potential, force),
+        shaped=lambda: potential,
+        residual=residual_of(pencil, solver, eigenvalue, displacement, potential, force),
         body_amplitudes=pencil.body_values(displacement),
-        energy=_energy_shares(pencil, displacement, force),
+        energy=energy_shares(pencil, displacement, force),
     )
-
-
-def _residual(
-    pencil: CoupledPencil,
-    solver: SLEPc.EPS,
-    eigenvalue: float,
-    displacement: PETSc.Vec,
-    potential: PETSc.Vec,
-    force: PETSc.Vec,
-) -> float:
-    residual, image = force.copy(), force.duplicate()
-    pencil.momentum.multTranspose(potential, image)
-    residual.axpy(-eigenvalue, image)
-    pencil.mass.mult(displacement, image)
-    residual.axpy(-eigenvalue, image)
-    solver.getST().getKSP().solve(residual, image)
-    return float(np.sqrt(abs(residual.dot(image) / force.dot(displacement))))
-
-
-def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
-    total = displacement.dot(force)
-    bodies = pencil.body_values(displacement) * pencil.body_values(force)
-    comm = displacement.comm.tompi4py()
-    local = displacement.array_r * force.array_r
-    stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
-    surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
-    return np.array([*bodies, *surfaces]) / total

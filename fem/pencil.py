@@ -212,11 +212,15 @@ def with_bodies(pencil: CoupledPencil, bodies: tuple[Body, ...]) -> CoupledPenci
     stiffness = pencil.stiffness.copy()
     stiffness.setDiagonal(diagonal)
     stiffness.assemble()
-    surfaces = pencil.mass.getLocalSize()[0] - (pencil.body_size if diagonal.comm.rank == 0 else 0)
-    blocks = [_on_first(_masses(bodies), diagonal.comm)]
-    if pencil.surfaces:
-        blocks.append(_zeros(((surfaces, PETSc.DETERMINE), (surfaces, PETSc.DETERMINE)), diagonal.comm))
-    return replace(pencil, bodies=bodies, stiffness=stiffness, mass=_joined(_block_diagonal(blocks)))
+    # Only bodies have mass.
+    mass = pencil.mass.duplicate()
+    mass.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
+    mass.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
+    if diagonal.comm.rank == 0:
+        places = np.arange(pencil.body_size, dtype=PETSc.IntType)
+        mass.setValues(places, places, _masses(bodies))
+    mass.assemble()
+    return replace(pencil, bodies=bodies, stiffness=stiffness, mass=mass)
 
 
 def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat) -> PETSc.Mat:

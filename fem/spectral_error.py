@@ -63,11 +63,11 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
     if not potentials:
         return np.empty((0, len(cells)))
     energies = _straight_energies(liquid) if is_straight(mesh) else _curved_energies(liquid)
-    errors: np.ndarray = liquid.energy_densities() * _missing_energy(*energies(cell_values(liquid, potentials)))
+    errors: np.ndarray = liquid.energy_densities() * missing_energy(*energies(cell_values(liquid, potentials)))
     return errors
 
 
-def _missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, fourth: np.ndarray) -> np.ndarray:
+def missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, fourth: np.ndarray) -> np.ndarray:
     """Energy of ∇ψ in the degrees from p on, from that in p − 1 … p − 4."""
     # Cells at rest have no energy in any degree.
     floor = np.finfo(float).tiny
@@ -92,25 +92,36 @@ p − 4."""
 
 
 def _straight_energies(liquid: LiquidSpace) -> Energies:
-    """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients."""
-    mesh = liquid.tank.mesh
-    jacobian = cell_jacobians(mesh, owned_cells(mesh), _ANYWHERE[mesh.topology.dim])[:, 0]
-    inverse, measure = np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
-    tables = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
+    coefficients = straight_coefficients(liquid)
 
     def energies(values: np.ndarray) -> list[np.ndarray]:
-        return [_energy(values, table, inverse, measure) for table in tables]
+        return [np.square(found).sum(axis=2) for found in coefficients(values)]
 
     return energies
 
 
-def _energy(values: np.ndarray, table: np.ndarray, inverse: np.ndarray, measure: np.ndarray) -> np.ndarray:
-    """∫|∇ψ|² of each cell in the polynomials of one degree."""
-    dim, polynomials, functions = table.shape
-    reference = (values @ table.reshape(-1, functions).T).reshape(*values.shape[:2], dim, polynomials)
-    slopes = inverse.transpose(0, 2, 1) @ reference
-    energy: np.ndarray = measure * np.square(slopes).sum(axis=(2, 3))
-    return energy
+def straight_coefficients(liquid: LiquidSpace) -> Callable[[np.ndarray], list[np.ndarray]]:
+    """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients.
+
+    Returns:
+        From values of ψ in each cell (potentials, cells, functions) to the coefficients of ∇ψ in the degrees p − 1 …
+        p − 4, whose squares add up to ∫|∇ψ|², shape (potentials, cells, coefficients).
+    """
+    mesh = liquid.tank.mesh
+    jacobian = cell_jacobians(mesh, owned_cells(mesh), _ANYWHERE[mesh.topology.dim])[:, 0]
+    inverse = np.linalg.inv(jacobian).transpose(0, 2, 1)
+    inverse *= np.sqrt(np.abs(np.linalg.det(jacobian)))[:, None, None]
+    tables = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
+
+    def coefficients(values: np.ndarray) -> list[np.ndarray]:
+        found = []
+        for table in tables:
+            dim, polynomials, functions = table.shape
+            reference = (values @ table.reshape(-1, functions).T).reshape(*values.shape[:2], dim, polynomials)
+            found.append((inverse @ reference).reshape(*values.shape[:2], -1))
+        return found
+
+    return coefficients
 
 
 def _curved_energies(liquid: LiquidSpace) -> Energies:

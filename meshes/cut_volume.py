@@ -17,7 +17,7 @@ from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.geometry import INTERFACE, LOWER_LIQUID
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 
 _DIM = 3
 
@@ -74,7 +74,7 @@ def with_regions(mesh: NodedMesh) -> NodedMesh:
     The interface of two of them is then named ``interface:lower_liquid_1:upper_liquid_2``, say.
 
     Raises:
-        MeshError: if nothing moves in a part.
+        MisplacedError: if nothing moves in a part.
     """
     count, part = connected_parts(mesh.cells)
     if count == len(mesh.cell_names):
@@ -82,7 +82,7 @@ def with_regions(mesh: NodedMesh) -> NodedMesh:
     moving = [number for name, number in mesh.facet_names.items() if not name.startswith("mirror")]
     surface = np.isin(mesh.cells, mesh.facets[np.isin(mesh.facet_tags, moving)]).any(axis=1)
     if len(np.unique(part[surface])) < count:
-        raise MeshError("baffles close in a part of the liquid that has no still surface")
+        raise MisplacedError("baffles close in a part of the liquid that has no still surface")
     liquids = {number: name for name, number in mesh.cell_names.items()}
     _, first = np.unique(part, return_index=True)
     names = [f"{liquids[mesh.cell_tags[cell]]}_{number}" for number, cell in enumerate(first, 1)]

@@ -12,7 +12,7 @@ import gmsh
 import numpy as np
 
 from hydroelastic.meshes.hull_file import wetted_triangles
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
 from hydroelastic.meshes.volume_solids import box_around
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.solid_floats import SolidFloat
@@ -81,7 +81,7 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
         Numbers of the volume, of the still surface around the hulls, and of that which it replaces.
 
     Raises:
-        MeshError: if a waterline does not lie in one face of still water.
+        MisplacedError: if a waterline does not lie in one face of still water.
     """
     geo, model = gmsh.model.geo, gmsh.model
     waterlines = [
@@ -91,10 +91,10 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
     ]
     around = {face for face in surfaces for loop in waterlines if _holds(face, loop)}
     if len(around) != 1:
-        raise MeshError("the waterline of a hull does not lie inside one part of the still surface")
+        raise MisplacedError("the waterline of a hull does not lie inside one part of the still surface")
     (replaced,) = around
     if any(not _holds(replaced, loop) for loop in waterlines):
-        raise MeshError("the waterline of a hull is not inside the tank, or touches something else")
+        raise MisplacedError("the waterline of a hull is not inside the tank, or touches something else")
     rims = _loops([abs(tag) for _, tag in model.getBoundary([(2, replaced)], combined=False, oriented=False)])
     rims.sort(key=lambda loop: -float(np.ptp([box_around((1, tag)) for tag in loop], axis=(0, 1)).max()))
     boundary = [tag for _, tag in model.getBoundary([(3, liquid)], oriented=False) if tag != replaced]

@@ -84,7 +84,7 @@ def plan_mesh(
         add(plate.outside, plate.name, wall.name, is_wall=False)
         for hole in plate.inside:
             add(hole, wall.name, plate.name, is_wall=False)
-    corners = np.concatenate([loop.reentrant for loop in walls])
+    corners = np.concatenate([loop.graded_corners for loop in walls])
     with gmsh_model():
         found = faces_between(wall, bands, mirrors)
         points, blocks = filled(found, size, corners[kept_by(mirrors, corners, 0.0)])

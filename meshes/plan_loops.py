@@ -21,6 +21,9 @@ Mirrors: TypeAlias = tuple[float | None, float | None]
 
 # Corners of a wall that turn the other way by more than this are re-entrant, radians.
 _REENTRANT = 1e-3
+# Corners of a wall that turn by less than this are obtuse: ψ ~ r^{π/α} with an angle α of 100 degrees or more, which
+# few nodes resolve.
+_OBTUSE, _FEW_NODES = 1.4, 3
 # Corners that turn by less than this are none: where mirror planes cross a side.
 _FLAT = 1e-9
 
@@ -66,8 +69,15 @@ class PolygonLoop:
         places = []
         ahead = np.roll(self.corners, -1, axis=0) - self.corners
         lengths = np.linalg.norm(ahead, axis=1)
+        at_obtuse = towards if len(towards) else towards_reentrant[-_FEW_NODES:]
         graded = [
-            towards_reentrant if turn < -_REENTRANT else UNGRADED if abs(turn) < _FLAT else towards
+            towards_reentrant
+            if turn < -_REENTRANT
+            else UNGRADED
+            if abs(turn) < _FLAT
+            else at_obtuse
+            if turn < _OBTUSE
+            else towards
             for turn in self._turns
         ]
         for number, length in enumerate(lengths):
@@ -87,9 +97,9 @@ class PolygonLoop:
         return bool(np.sum(crossing & ((x * v - u * y > 0.0) == (v > y))) % 2)
 
     @property
-    def reentrant(self) -> NDArray[np.float64]:
-        """Corners with more than half a turn inside, shape (corners, 2)."""
-        return np.asarray(self.corners[self._turns < -_REENTRANT])
+    def graded_corners(self) -> NDArray[np.float64]:
+        """Re-entrant and obtuse corners, towards which cells of a wall shrink, shape (corners, 2)."""
+        return np.asarray(self.corners[(self._turns < _OBTUSE) & (np.abs(self._turns) > _FLAT)])
 
     @property
     def _turns(self) -> NDArray[np.float64]:
@@ -153,7 +163,7 @@ class CircleLoop:
         return bool(np.hypot(*(point - self.centre)) < self.radius)
 
     @property
-    def reentrant(self) -> NDArray[np.float64]:
+    def graded_corners(self) -> NDArray[np.float64]:
         """It has no corners."""
         return np.empty((0, 2))
 

@@ -13,6 +13,10 @@ class MeshError(ValueError):
     """A mesh that cannot be read, or that does not have the required groups."""
 
 
+class MisplacedError(MeshError):
+    """Parts of a tank that do not fit together as they are given."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CurvedCells:
     """Cells whose geometry is polynomial; all the others are straight.

@@ -16,29 +16,31 @@ from scipy.interpolate import RBFInterpolator
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
 from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls, release_numbers
+from hydroelastic.meshes.edge_layers import with_edge_layers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
+from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
     baffle_faces,
     below,
-    box_around,
     face,
     faces_of,
     float_solid,
     kept,
     liquid_solid,
+    require_inside,
 )
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.dofs import body_name, body_number
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Cylinder, FilePlan, middle_of
-from hydroelastic.physics.plate import Disc, Rectangle
+from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
@@ -54,10 +56,6 @@ _LEAST_CURVED = 0.2
 _LEVEL = 1e-7
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
-# The vertical part of the normal of a wall that meets the still surface at right angles is less.
-_UPRIGHT = 0.1
-# By so much boxes around edges are larger than these.
-_BOXES = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,6 +69,7 @@ class VolumeSizes:
         around: least number of cells around a curved wall.
         refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
             sizes then; see `meshes.refinement`.
+        layers: how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`.
     """
 
     edge: float
@@ -78,6 +77,7 @@ class VolumeSizes:
     geometry: int
     around: int = 16
     refinements: int = 0
+    layers: int = 0
 
     @property
     def coarse(self) -> VolumeSizes:
@@ -97,6 +97,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
 
     Raises:
         FoldedError: if a cell is inverted.
+        MisplacedError: if parts of the tank do not fit together.
         MeshError: if gmsh fails, or if the file's groups do not fit.
     """
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
@@ -105,7 +106,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
     with gmsh_model():
         parts = _parts(tank, mirrors)
         _require_covered(tank, parts, 2 ** sum(mirror is not None for mirror in mirrors))
-        edges, curved, faces = _singular_edges(tank, parts, mirrors), _is_curved(tank), parts.faces
+        edges, curved, faces = singular_edges(tank, parts.faces, mirrors), _is_curved(tank), parts.faces
         surfaces: dict[tuple[str, ...], Surface] = {}
         if sizes.refinements:
             apart = {tag: f"{name}{APART}{tag}" for tag, name in faces.items()}
@@ -119,11 +120,9 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             if degree > 1:
                 gmsh.model.mesh.setOrder(degree)
         mesh = read_gmsh(degree, {tag: name for tag, name in faces.items() if name}, parts.layers)
+        segments, corners = singular_segments(mesh, edges)
     if sizes.refinements:
         return VolumeMesh(noded=mesh, volume=parts.volume, surfaces=surfaces, curved=curved)
-    cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
-    if cuts:
-        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
     volume = parts.volume
     if isinstance(tank.bed, SurveyedBed):
         stretched = mesh_integral(mesh, lambda places: np.asarray(bed(places[:, :2]) / tank.depth))
@@ -131,7 +130,13 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points = mesh.points.copy()
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
-    return VolumeMesh(noded=checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats), volume=volume)
+    # Parts of curved cells may be thinner than these are curved; they are inverted only where these are.
+    mesh = checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats)
+    mesh = with_edge_layers(mesh, segments, corners, sizes.layers)
+    cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
+    if cuts:
+        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
+    return VolumeMesh(noded=mesh, volume=volume)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,6 +167,10 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
     volume = occ.getMass(*liquid[0]) - sum(solid.hydrostatics.volume for solid in tank.floats) / images
     tools = {body_name(index): kept(face(plate.outline), tank, mirrors) for index, plate in enumerate(tank.plates, 1)}
     tools |= {name: kept(float_solid(floats[name]), tank, mirrors) for name in floats if name not in hulls}
+    if isinstance(tank.plan, FilePlan):
+        # Of other plans the scene tells.
+        for name in tools.keys() & floats.keys():
+            require_inside(name, tools[name], liquid)
     tools[BAFFLE] = [one for baffle in tank.baffles for one in baffle_faces(baffle, tank, liquid)]
     if tank.interface is not None:
         tools[LOWER_LIQUID] = below(tank, tank.interface)
@@ -183,7 +192,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         occ.remove(others, recursive=True)
         occ.synchronize()
     if len(liquids) != 1 + bool(lower) and not tank.baffles:
-        raise MeshError("the bed divides the liquid")
+        raise MisplacedError("the bed divides the liquid")
     layers = {tag: (LOWER_LIQUID if (3, tag) in lower else UPPER_LIQUID) if lower else LIQUID for _, tag in liquids}
     owners = {tag: name for name in tools for dim, tag in pieces[name] if dim == 2}
     faces = {
@@ -192,7 +201,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
     }
     left = set(gmsh.model.getEntities(2))
     if any((2, tag) not in left for tag, name in owners.items() if name == BAFFLE):
-        raise MeshError("a baffle meets a float")
+        raise MisplacedError("a baffle meets a float")
     faces |= {tag: BAFFLE for tag, name in owners.items() if name == BAFFLE}
     if lower:
         shared = faces_of(sorted(lower)) & faces_of(sorted(liquids - lower))
@@ -247,7 +256,7 @@ def _require_covered(tank: VolumeTank, parts: _Parts, images: int) -> None:
     for number, plate in enumerate(tank.plates, 1):
         area = sum(gmsh.model.occ.getMass(2, tag) for tag, name in parts.faces.items() if name == body_name(number))
         if images * area < plate.outline.area * (1.0 - _LEVEL):
-            raise MeshError(f"plate {number} does not lie on the still surface of the tank")
+            raise MisplacedError(f"plate {number} does not lie on the still surface of the tank")
 
 
 def _name(tag: int, wetted: dict[str, set[int]], mirrors: Mirrors) -> str:
@@ -273,46 +282,6 @@ def _is_curved(tank: VolumeTank) -> bool:
 
 def _kinds() -> set[str]:
     return {gmsh.model.getType(2, tag) for _, tag in gmsh.model.getEntities(2)}
-
-
-def _singular_edges(tank: VolumeTank, parts: _Parts, mirrors: Mirrors) -> set[int]:
-    """Edges of plates, corners of floats and columns, and tips of baffles; not those that planes of symmetry make, nor
-    where walls of a float meet the still surface at right angles."""
-    found: set[int] = set()
-    beside: set[int] = set()
-    tips: list[int] = []
-    for tag, name in parts.faces.items():
-        edges = [edge for _, edge in gmsh.model.getBoundary([(2, tag)], oriented=False)]
-        if name == BAFFLE:
-            tips += edges
-            continue
-        beside |= {*edges, *(edge for dim, edge in gmsh.model.mesh.getEmbedded(2, tag) if dim == 1)}
-        number = body_number(name)
-        if number is None:
-            continue
-        for edge in edges:
-            box = box_around((1, edge))
-            level = number > len(tank.plates) and np.abs(box[:, 2]).max() < _BOXES and _is_upright(tag, edge)
-            if not level and not any(
-                mirror is not None and np.abs(box[:, axis] - mirror).max() < _BOXES
-                for axis, mirror in enumerate(mirrors)
-            ):
-                found.add(edge)
-    found |= {edge for edge in tips if tips.count(edge) == 1} - beside
-    corners = [corner for outline in tank.columns if isinstance(outline, Rectangle) for corner in outline.corners]
-    for edge in beside if corners else ():
-        low, high = box_around((1, edge))
-        if any(np.abs([*(low[:2] - corner), *(high[:2] - corner)]).max() < _BOXES for corner in corners):
-            found.add(edge)
-    return found
-
-
-def _is_upright(face: int, edge: int) -> bool:
-    """Whether a face meets the still surface at right angles, in the middle of an edge of it."""
-    (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
-    place = gmsh.model.getValue(1, edge, [0.5 * (start + end)])
-    normal = gmsh.model.getNormal(face, gmsh.model.getParametrization(2, face, place))
-    return bool(abs(normal[2]) < _UPRIGHT)
 
 
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:

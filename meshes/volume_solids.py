@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.meshes.hull_file import hull_solid
 from hydroelastic.meshes.plan_loops import Mirrors
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 from hydroelastic.meshes.volume_file import solid_of_file
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, middle_of
 from hydroelastic.physics.obstacles import Baffle, VerticalBaffle
@@ -20,6 +20,8 @@ from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
 Entities = list[tuple[int, int]]
 """Dimension and tag of parts of a model of gmsh."""
 
+# In units of the tank: parts that are closer touch.
+_GAP = 1e-6
 # Part of the volume that counts as nothing.
 _NOTHING = 1e-9
 
@@ -32,7 +34,7 @@ def liquid_solid(tank: VolumeTank) -> Entities:
         whole = occ.getMass(*solid[0])
         solid = [one for one in occ.cut(solid, _prism(face(outline), 2.0 * _reach(tank)))[0] if one[0] == 3]
         if len(solid) != 1 or occ.getMass(*solid[0]) > whole * (1.0 - _NOTHING):
-            raise MeshError(f"column {number} does not stand in the tank, or divides it")
+            raise MisplacedError(f"column {number} does not stand in the tank, or divides it")
     return solid
 
 
@@ -107,7 +109,7 @@ def baffle_faces(baffle: Baffle, tank: VolumeTank, liquid: Entities) -> Entities
     """The part of a baffle in the liquid.
 
     Raises:
-        MeshError: if there is none.
+        MisplacedError: if there is none.
     """
     if isinstance(baffle, VerticalBaffle):
         (x, y), (right, back) = baffle.start, baffle.end
@@ -117,7 +119,7 @@ def baffle_faces(baffle: Baffle, tank: VolumeTank, liquid: Entities) -> Entities
         own = face(baffle.outline, baffle.level)
     found = [one for one in gmsh.model.occ.intersect(own, liquid, removeTool=False)[0] if one[0] == 2]
     if not found:
-        raise MeshError("a baffle does not lie in the liquid")
+        raise MisplacedError("a baffle does not lie in the liquid")
     return found
 
 
@@ -137,6 +139,21 @@ def float_solid(solid: SolidFloat) -> Entities:
         return [one for one in occ.revolve(section, x, y, 0.0, 0.0, 0.0, 1.0, 2.0 * pi) if one[0] == 3]
     along, across = solid.size
     return [(3, occ.addBox(x - 0.5 * along, y - 0.5 * across, -depth, along, across, 2.0 * depth))]
+
+
+def require_inside(name: str, solids: Entities, liquid: Entities) -> None:
+    """Refuse a float that is not inside of a liquid, or touches its walls or bed.
+
+    Raises:
+        MisplacedError: if it does.
+    """
+    occ = gmsh.model.occ
+    common = occ.intersect(solids, liquid, removeObject=False, removeTool=False)[0]
+    faces = [face for _, solid in liquid for loop in occ.getSurfaceLoops(solid)[1] for face in loop]
+    walls = [face for face in faces if np.abs(np.array(occ.getBoundingBox(2, face))[[2, 5]]).max() > _GAP]
+    if not common or min(occ.getDistance(*one, 2, wall)[0] for one in solids for wall in walls) < _GAP:
+        raise MisplacedError(f"{name.replace('_', ' ')} does not lie in the liquid, or touches the tank")
+    occ.remove(common, recursive=True)
 
 
 def kept(entities: Entities, tank: VolumeTank, mirrors: Mirrors) -> Entities:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isinf, isnan
+from math import isfinite, isinf, isnan
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,9 @@ import numpy as np
 
 def json_ready(value: Any) -> Any:
     """Return a value in types of JSON: arrays as lists, complex numbers as pairs, no infinity and no NaN."""
+    # Nearly all are of these types.
+    if value is None or type(value) in (str, int, bool) or (type(value) is float and isfinite(value)):
+        return value
     if isinstance(value, np.ndarray):
         return json_ready(value.tolist())
     if isinstance(value, dict):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import fsum, isfinite
 from typing import Literal, Self
@@ -84,8 +84,7 @@ class Beam(Body):
 
     def dofs(self, count: int) -> tuple[Dof, ...]:
         """Return its first shapes: the rigid motions, then elastic ones."""
-        rigid = self.rigid_motions
-        return (*rigid, *(Dof.elastic(number + 1) for number in range(count - len(rigid))))[:count]
+        return _first_dofs(self.rigid_motions, count)
 
     def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """A free beam without hydrostatics heaves, pitches and turns about its hinges without energy."""
@@ -265,3 +264,8 @@ def defines_shape_direction(beam: Beam) -> bool:
         if abs(own - other) > _ALIKE * max(abs(own), abs(other), scale):
             return own < other
     return True
+
+
+@lru_cache(maxsize=64)
+def _first_dofs(rigid: tuple[Dof, ...], count: int) -> tuple[Dof, ...]:
+    return (*rigid, *(Dof.elastic(number + 1) for number in range(count - len(rigid))))[:count]

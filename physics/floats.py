@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.dofs import Dof, Turn
 from hydroelastic.physics.hulls import Hull
@@ -25,12 +26,15 @@ class RigidFloat(Body):
         hydrostatics: where it floats, its inertia and stiffness.
         level: at which it floats.
         motions: its free motions, in the order of `PLACES`.
+        springs: stiffness of springs to the ground for heave, sway and roll about the centre of mass, in closed tanks:
+            N/m², N/m and N, symmetric; empty without any.
     """
 
     hull: Hull = field()
     hydrostatics: Hydrostatics
     level: Level
     motions: tuple[Motion, ...]
+    springs: Matrix | tuple[()] = ()
 
     @property
     def waterplane(self) -> tuple[float, float]:
@@ -57,12 +61,12 @@ class RigidFloat(Body):
         return replace(self, motions=tuple(motion for motion in self.motions if azimuthal_order(motion) == order))
 
     def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
-        """A float sways without energy, and rolls without energy if its roll stiffness is zero.
+        """A float without springs sways without energy, and rolls without energy if its roll stiffness is zero.
 
         With free heave, the heave in this roll makes the heave force, and the displaced volume, zero.
         """
         motions = self._by_place
-        if 1 in motions:
+        if 1 in motions and not self.stiffness[1].any():
             yield motions[1], False
         if 2 in motions and self.roll_stiffness == 0.0:
             yield motions[2], 0 not in motions and self.hydrostatics.coupling_stiffness != 0.0
@@ -81,7 +85,13 @@ class RigidFloat(Body):
         # On the axis of a solid the contour goes on to its other half.
         on_axis = start == 0.0 == self.hull.middle
         hull = self.hull.scaled(units.length, -end if on_axis else start, end)
-        return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units))
+        arms, force = np.array([units.length, units.length, 1.0]), units.density * units.gravity * units.volume
+        factors = np.outer(arms, arms) / (force * units.length)
+        springs = tuple(
+            (float(heave), float(sway), float(roll))
+            for heave, sway, roll in np.reshape(self.springs, (-1, 3)) * factors[: len(self.springs)]
+        )
+        return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units), springs=springs)
 
     def is_mirror_image_of(self, other: object) -> bool:
         """Whether it is the mirror image of another body up to rounding, wherever both float."""
@@ -90,6 +100,9 @@ class RigidFloat(Body):
             isinstance(other, RigidFloat)
             and hull.is_symmetric
             and abs(rest.centre_of_mass[0] - hull.middle) <= hull.rounding
+            # Springs that couple heave to sway or roll change their sign in the mirror.
+            and self.springs == other.springs
+            and not any(self.springs and self.springs[0][1:])
             and (self.motions, self.level) == (other.motions, other.level)
             and hull.is_copy_of(other.hull)
             and abs(rest.radius_of_gyration - other.hydrostatics.radius_of_gyration) <= hull.rounding
@@ -103,14 +116,19 @@ class RigidFloat(Body):
 
     @property
     def stiffness(self) -> NDArray[np.float64]:
-        """Hydrostatic stiffness of heave, sway and roll, shape (3, 3)."""
-        return self.hydrostatics.stiffness
+        """Stiffness of heave, sway and roll by gravity and by springs, shape (3, 3)."""
+        return self.hydrostatics.stiffness + (np.array(self.springs) if self.springs else 0.0)
 
     @property
     def roll_stiffness(self) -> float:
-        """Stiffness of roll, N; with free heave that of a roll without heave force."""
+        """Stiffness of roll, N; with free heave that of a roll without heave force, and so of sway with springs."""
         rest = self.hydrostatics
-        return rest.free_roll_stiffness if "heave" in self.motions else rest.roll_stiffness
+        if not self.springs:
+            return rest.free_roll_stiffness if "heave" in self.motions else rest.roll_stiffness
+        stiffness = self.stiffness
+        others = [place for place in (0, 1) if place in self._by_place and stiffness[place].any()]
+        held = stiffness[np.ix_(others, others)]
+        return float(stiffness[2, 2] - stiffness[2, others] @ np.linalg.pinv(held) @ stiffness[others, 2])
 
     @property
     def is_rotation(self) -> NDArray[np.float64]:

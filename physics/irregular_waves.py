@@ -85,7 +85,12 @@ def moments(
 
 
 def statistics(
-    spectrum: WaveSpectrum, omegas: np.ndarray, transfer: np.ndarray, errors: np.ndarray, duration: float
+    spectrum: WaveSpectrum,
+    omegas: np.ndarray,
+    transfer: np.ndarray,
+    errors: np.ndarray,
+    duration: float,
+    ends: np.ndarray | None = None,
 ) -> Statistics:
     """Return the statistics of linear responses.
 
@@ -95,12 +100,13 @@ def statistics(
         transfer: responses per unit elevation, shape (n, q).
         errors: their absolute errors, shape (n, q).
         duration: of the sea state, s.
+        ends: |T| below the first and above the last frequency, shape (2, q); by default that at these.
     """
     found = moments(spectrum, omegas, transfer)
     coarse = np.union1d(np.arange(0, len(omegas), 2), [len(omegas) - 1])
     rough = moments(spectrum, omegas[coarse], transfer[coarse], (0,))[0]
     energy = found[0]
-    beyond = np.abs(transfer[[0, -1]]) ** 2 * [
+    beyond = np.abs(transfer[[0, -1]] if ends is None else ends) ** 2 * [
         [spectrum.below(omegas[0], 0)],
         [spectrum.tail(omegas[-1], 0)],
     ]

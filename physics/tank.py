@@ -156,7 +156,7 @@ class Tank:
     geometry: Geometry = PLANE
     bed: tuple[tuple[float, float], ...] | Literal["sphere"] | None = None
 
-    @property
+    @cached_property
     def units(self) -> Scales:
         """The units in which length, gravity and the density of the lowest layer are 1."""
         dimensions = 3 if self.geometry.is_whole else 2

@@ -46,6 +46,7 @@ STUDIED = {
 SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes whose pictures are kept smaller, with the names of the most telling ones.
 FEW = {
+    "conical_tank": "mode_001.png",
     "hemisphere": "*.png",
     "ice_floe": "*response_1.png",
     "point_absorber": "*.png",

@@ -22,9 +22,10 @@ from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.open_analyses import Decay, Release
+from hydroelastic.scenes.models.open_analyses import Decay
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
+from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.check import decay_cost_words, open_requests
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.fem.open_water.results import SpectrumTable
+from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import SeaScene, Spectrum
 from hydroelastic.scenes.open_water.solve import solve_open

@@ -11,6 +11,7 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.requests import (
+    DecayRequest,
     ImpulseResponseRequest,
     MotionRequest,
     RadiationRequest,
@@ -105,3 +106,15 @@ def test_regular_waves_end_in_the_response_of_the_frequency_domain(depth: float)
     # Both keep the tolerance; after the transient an algebraic tail of 1e-4 of the amplitude is left.
     np.testing.assert_allclose(table.displacement[late, 0], expected[late], rtol=0.0, atol=2e-3 * abs(amplitude * 0.05))
     np.testing.assert_allclose(table.steady[:, 0], expected, rtol=0.0, atol=1e-3 * abs(amplitude * 0.05))
+
+
+@pytest.mark.slow
+def test_a_release_over_time_is_the_decay_of_the_frequency_domain() -> None:
+    """Cummins' equation from a displacement, and the inverse Fourier transform of `decay.py`."""
+    times = tuple(np.linspace(0.0, 20.0, 101).tolist())
+    requests = (MotionRequest(times=times, waves=(), heave=0.1), DecayRequest(heave=0.1, times=times))
+    solution = solve_open_water(problem(np.inf), requests)
+    assert not solution.reasons
+    (motion,), (decay,) = solution.motion, solution.decay
+    assert motion.displacement[0, 0] == pytest.approx(0.1)
+    np.testing.assert_allclose(motion.displacement, decay.displacement, rtol=0.0, atol=TOLERANCE * 0.1)

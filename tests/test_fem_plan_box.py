@@ -10,16 +10,21 @@ import pytest
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
 from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.level_bed.choice import LevelModel
 from hydroelastic.fem.level_bed.interval import IntervalSpace
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.box import BoxModel, BoxSolution, solve_box
 from hydroelastic.fem.plan.box_resolution import BoxResolution, graded_nodes
 from hydroelastic.fem.plan.classes import SymmetryClass
-from hydroelastic.physics.level_tank import Box, LevelTank
-from hydroelastic.physics.plate import Plate, Rectangle
+from hydroelastic.fem.plan.solve import solve_smallest_model
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.physics.plate import Disc, Plate, Rectangle, Strip
+from hydroelastic.physics.tank import Top
 
 RECTANGLES = [name for name, case in CASES.items() if case["family"] == "box_rectangle"]
 STRIPS = [name for name, case in CASES.items() if case["family"] == "box_strip" and case["inputs"]["kind"] == "plate"]
+
+MODELS: tuple[LevelModel, ...] = ("orders", "box")
 
 
 @cache
@@ -86,6 +91,58 @@ def test_a_tank_without_symmetry_has_the_same_modes() -> None:
     _, whole = _solved(moved, 1e-3, 6)
     # The tolerance asked; measured 4e-4.
     assert whole == pytest.approx(frequencies("rectangle_base_s0")[:6], rel=1e-3)
+
+
+def _strips(*rigidities: float, hydrostatic: bool, top: Top) -> LevelTank:
+    plates = tuple(
+        Plate(
+            outline=Strip(start=0.7 + 3.2 * number, length=2.0, width=1.5),
+            flexural_rigidity=rigidity,
+            mass_per_area=50.0,
+            hydrostatic=hydrostatic,
+        )
+        for number, rigidity in enumerate(rigidities)
+    )
+    return LevelTank(plan=Box(length=10.0, width=1.5), depth=2.0, plates=plates, top=top, **WATER)
+
+
+def test_plates_of_unlike_stiffness_have_the_released_tones_of_their_orders() -> None:
+    """Those of the stiffer ones lie above rigid motions and shorter waves of the softer ones."""
+    tank = _strips(5e2, 5e4, 5e3, hydrostatic=True, top="free")
+    exact, found = (solve_smallest_model(tank, tolerance=1e-3, modes=1, model=model).tones for model in MODELS)
+    for one, own in zip(found, exact, strict=True):
+        assert one.pressure_release is not None
+        assert one.pressure_release_error is not None
+        assert own.pressure_release is not None
+        assert own.pressure_release_error is not None
+        error = abs(np.sqrt(one.pressure_release / own.pressure_release) - 1.0)
+        assert error < one.pressure_release_error + own.pressure_release_error < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("hydrostatic", "model"),
+    [
+        (False, "box"),
+        pytest.param(True, "box", marks=pytest.mark.slow),
+        pytest.param(True, "plan", marks=pytest.mark.slow),
+    ],
+)
+def test_modes_with_a_released_surface_are_those_of_orders(*, hydrostatic: bool, model: LevelModel) -> None:
+    if model == "box":
+        tank = _strips(5e2, 5e4, hydrostatic=hydrostatic, top="pressure_release")
+    else:
+        plate = Plate(outline=Disc(radius=2.0), flexural_rigidity=5e3, mass_per_area=50.0, hydrostatic=hydrostatic)
+        tank = LevelTank(plan=Cylinder(radius=5.0), depth=2.0, plates=(plate,), top="pressure_release", **WATER)
+    exact = solve_smallest_model(tank, tolerance=1e-6, modes=4, tones=False)
+    values = np.sort([one.mode.eigenvalue for one in exact.modes for _ in range(one.problem.multiplicity)])[:4]
+    found = solve_smallest_model(tank, tolerance=1e-3, modes=4, model=model, tones=False)
+    estimates = np.array([one.relative_error for one in found.modes])
+    errors = np.sqrt([one.mode.eigenvalue for one in found.modes] / values) - 1.0
+    # Measured: 1e-5 to 5e-5.
+    assert np.all(np.abs(errors) < estimates)
+    assert estimates.max() < min(1e-3, 30.0 * np.abs(errors).max())
+    assert found.counted
+    assert found.zero_modes == (0 if hydrostatic else 4)
 
 
 def test_the_inertia_of_a_dense_problem_counts_as_many_modes() -> None:

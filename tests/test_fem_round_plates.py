@@ -336,3 +336,16 @@ def test_motions_of_shapes_settle_to_those_in_regular_waves() -> None:
     turned = (np.exp(-1j * omega * np.array(times))[:, None] * 0.1 * np.exp(0.4j) * known).real
     # The further shapes, which the motion leaves out, change these by 1e-3 of the largest.
     np.testing.assert_allclose(motion.displacement, turned, atol=3e-3 * np.abs(turned).max())
+
+
+@pytest.mark.slow
+def test_a_resonance_of_the_water_that_bends_a_plate_a_little_is_not_missed() -> None:
+    """Its −Im ω/Re ω is 0.4985, within the default range; the water beside a fixed disc has its own at 0.5056, outside.
+
+    Eigenvalues of the scaled problem on meshes for 1e-3 to 1e-7 tend to it; they do not depend on α.
+    """
+    body = {"radius": 1.0, "flexural_rigidity": 400.0, "mass_per_area": 10.0}
+    solution = solved(body, math.inf, 1e-3, ResonanceRequest(count=3))
+    (table,) = solution.resonance
+    assert solution.status == "ok"
+    assert np.abs(table.omega - (4.1121 - 2.0499j)).min() < 1e-3 * 4.6

@@ -136,6 +136,31 @@ def test_a_thin_ring_of_large_radius_is_a_section_bent_to_a_circle() -> None:
     assert 0.2 * differences[0] < differences[1] < 0.4 * differences[0]
 
 
+@SLOW
+def test_a_ring_whose_section_has_no_mirror_tends_to_it_as_the_curvature() -> None:
+    """At infinite frequency the added mass per length is that of the section and a part of 1/R, fitted to three R."""
+    vertices = [[-0.5, -0.5], [0.5, 0.25], [-0.5, 0.25]]
+    request = RadiationRequest(omega=(math.inf,))
+    section = {"kind": "float", "shape": "polygon", "vertices": vertices, "unstable": "solve", "motions": ["heave"]}
+    scene = SeaScene.model_validate(
+        {
+            "liquid": [{"density": DENSITY, "depth": math.inf}],
+            "body": [section],
+            "accuracy": {"tolerance": 1e-5},
+        }
+    )
+    plane = solve_open_water(open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()), (request,)).radiation[0]
+    radii, differences = np.array([20.0, 40.0, 80.0]), []
+    for radius in radii:
+        ring = {"shape": "revolved", "outline": [[radius + x, z] for x, z in vertices]}
+        (table,) = solved([ring], math.inf, 1e-5, request, motions=("heave",)).radiation
+        per_length = table.added_mass[0, 0, 0] / (2.0 * math.pi * radius)
+        differences.append(abs(per_length / plane.added_mass[0, 0, 0] - 1.0))
+    rate = -np.polyfit(np.log(radii), np.log(differences), 1)[0]
+    # Measured: 1.50e-2, 7.55e-3 and 3.79e-3, of order 0.990.
+    assert 0.95 < rate < 1.03
+
+
 @pytest.mark.mpi
 def test_motions_in_waves_follow_from_forces_and_no_order_loses_power() -> None:
     """[C − ω²(M + a) − iωb] ξ = X, and |1 + 2aₙ| = 1 of every partial wave."""

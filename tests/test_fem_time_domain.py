@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from hydroelastic.fem.time_domain.motion import MovingBodies, UnsolvedMotionError, WaveForces
 from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
@@ -55,6 +56,21 @@ def test_poles_before_the_ray_are_exponentials_of_their_own() -> None:
     known = STRENGTH * np.exp(-damping * times) * (np.cos(nu * times) - damping / nu * np.sin(nu * times))
     # The rule's 1e-10; K(0) = C has the error of the cut end of the ray.
     np.testing.assert_allclose(found.impulse_response(times)[:, 0, 0], known, atol=1e-8)
+
+
+def test_what_faster_oscillations_add_is_fitted(memory: RadiationMemory) -> None:
+    """Two oscillations above the frequencies of H, as of narrow water: a and b come back between those of the fit."""
+
+    def whole(omega: np.ndarray) -> np.ndarray:
+        faster = 0.1 / (3.3**2 - omega**2) + 0.05 / (5.0**2 - omega**2)
+        return LIMIT + (beyond_limit(-1j * omega) + faster)[:, None, None]
+
+    fitted, others = np.geomspace(0.01, 3.0, 60), np.geomspace(0.013, 2.9, 23)
+    rates = (1j - 1e-3) * 3.0 * (1.0 + np.geomspace(0.03, 20.0, 12))
+    found = memory.completed(fitted, whole(fitted), rates).hydrodynamic(others)
+    assert np.abs(memory.hydrodynamic(others) - whole(others)).max() > 1e-2
+    # The rule's 1e-10 at both ends of the ray, and that of 12 exponentials.
+    np.testing.assert_allclose(found, whole(others), atol=1e-6)
 
 
 def test_added_mass_and_damping_come_back(memory: RadiationMemory) -> None:
@@ -123,6 +139,26 @@ def test_quadratic_damping_dissipates_as_its_equivalent_linear_one(memory: Radia
     assert abs(linear.steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
     assert abs(bodies(memory, quadratic=quadratic).steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
     assert abs(bodies(memory).steady(waves)[0, 0]) > 1.1 * amplitude
+
+
+@pytest.mark.parametrize("amplitude", [2.0, pytest.param(0.05, marks=pytest.mark.slow)])
+def test_a_release_with_drag_is_that_of_an_independent_integration(memory: RadiationMemory, amplitude: float) -> None:
+    """The force of the waves, K̂ξ̂′, is r′ of r″ + 2γr′ + ω₀²r = Cξ′: four states, integrated by another method."""
+    damping, quadratic, spring = 0.1, 0.7, 3.0
+
+    def rates(_time: float, state: np.ndarray) -> list[float]:
+        x, v, r, s = state
+        force = -spring * x - damping * v - quadratic * abs(v) * v - s
+        return [v, force / (1.0 + LIMIT[0, 0]), s, STRENGTH * v - 2.0 * GAMMA * s - NATURAL**2 * r]
+
+    times = np.linspace(0.0, 12.0, 25)
+    known = solve_ivp(rates, (0.0, 12.0), [amplitude, 0.0, 0.0, 0.0], "Radau", times, rtol=1e-9, atol=1e-11).y
+    still = WaveForces(omega=np.zeros(0), forces=np.zeros((0, 1), dtype=complex))
+    moving = bodies(memory, damping=damping, quadratic=quadratic, spring=spring)
+    displacement, velocity = moving.motion(still, times, 1e-7, np.array([amplitude]))
+    # The exponentials without states are left out to (1/30)³ of the last part of K̂.
+    np.testing.assert_allclose(displacement[:, 0], known[0], rtol=0.0, atol=4e-6 * amplitude)
+    np.testing.assert_allclose(velocity[:, 0], known[1], rtol=0.0, atol=8e-6 * amplitude)
 
 
 def test_what_grows_without_bound_is_refused(memory: RadiationMemory) -> None:

@@ -25,7 +25,7 @@ from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.obstacles import LevelBaffle, VerticalBaffle
 from hydroelastic.physics.plate import Disc, Plate, Rectangle, Strip
-from hydroelastic.physics.volume_tank import LowerLiquid, VolumeTank
+from hydroelastic.physics.volume_tank import LowerLiquid, SlopingBed, VolumeTank
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -68,6 +68,15 @@ def test_two_liquids_in_a_box_have_the_waves_of_the_closed_form(lid: bool) -> No
     errors = omega / exact - 1.0
     assert np.all((errors >= -1e-12) & (errors <= estimates))
     assert errors.max() < 1e-3
+
+
+def test_thirty_modes_of_two_liquids_are_counted_within_five_solutions_of_each() -> None:
+    """Their gaps are narrower than the error of degree 2, whose inertia alone would not confirm them."""
+    tank = replace(LAYERED, density=300.0, bed=SlopingBed(slope=(0.05, 0.02)))
+    solution = solve_volume(tank.scaled(), tolerance=3e-2, count=30)
+    assert solution.counted
+    (one,) = solution.modes.classes
+    assert one.pencil.solver.solves <= 5 * len(one.modes.eigenvalues)
 
 
 def test_a_column_on_the_axis_makes_a_ring() -> None:

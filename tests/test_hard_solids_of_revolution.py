@@ -11,6 +11,7 @@ from open_cases import TOO_SMALL
 from scipy.special import h1vp, jvp
 from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, problem_of, solved
 
+from hydroelastic.fem.open_water.radiation_memory import solve_memory
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.results import RadiationTable
@@ -86,6 +87,39 @@ def test_a_ring_with_a_moon_pool_agrees_with_the_reference(name: str) -> None:
         known = np.array(values[f"added_mass_n{order}"]) + 1j * np.array(values[f"damping_n{order}"]) / values["omega"]
         found = hydrodynamic(table)[np.ix_(own, own)]
         np.testing.assert_allclose(found, known, atol=2e-6 * np.abs(known).max())
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-4), ("hemisphere Ka", 1e-6), ("c1 Ka", 1e-5)]
+)
+def test_impulse_responses_give_added_mass_and_damping_back(name: str, tolerance: float) -> None:
+    """a and b by K against the references; the water of the pool has resonances of widths down to 1e-9 without end."""
+    cases = [case for key, case in CASES.items() if key.startswith(name)]
+    problem = problem_of(bodies_of(cases[0]), depth_of(cases[0]), tolerance, motions=MOTIONS[:2])
+    for order, motion in enumerate(MOTIONS[:2]):
+        memory = solve_memory(problem.of_order(order), 10.0, 0)
+        assert memory.error < tolerance
+        assert memory.causality_error.max() < 0.1 * tolerance
+        for case in cases:
+            values = case["values"]
+            omega = np.array([values["omega"]])
+            # Waves shorter than those of the mesh.
+            if omega > memory.omega[-1]:
+                continue
+            if f"added_mass_n{order}" in values:
+                mass, damping = (values[f"{key}_n{order}"][0][0] for key in ("added_mass", "damping"))
+            else:
+                mass, damping = values[f"added_mass_{motion}"], values[f"damping_{motion}"]
+            known = mass + 1j * damping / omega[0]
+            assert abs(memory.memory.hydrodynamic(omega)[0, 0, 0] - known) < memory.error * abs(known)
+
+
+def test_a_gap_that_rings_gives_added_mass_and_damping_back() -> None:
+    """Between a spar and a ring that both surge."""
+    problem = problem_of(SPAR_IN_RING, 8.0, 1e-4, motions=MOTIONS[:2])
+    memory = solve_memory(problem.of_order(1), 10.0, 0)
+    assert memory.error < 1e-4
+    assert memory.causality_error.max() < 1e-6
 
 
 def test_short_waves_about_a_pile_have_all_orders_up_to_twelve() -> None:

@@ -152,3 +152,16 @@ def test_a_narrow_gap_between_circles_is_meshed() -> None:
     # Without shorter arcs the sagitta of a quarter's chord is wider than the gap.
     mesh = _meshed(_circle(1.0), PlanRegion(name="plate", outside=_circle(0.98)))
     assert _area(mesh, "water") == pytest.approx((1.0 - 0.98**2) * np.pi, rel=1e-9)
+
+
+def test_walls_are_graded_towards_obtuse_corners_and_not_towards_right_ones() -> None:
+    angles = np.arange(6) * np.pi / 3.0
+    hexagon = PolygonLoop(corners=np.column_stack([np.cos(angles), np.sin(angles)]))
+    square = PolygonLoop(corners=np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
+    nodes = np.array([0.01, 0.02, 0.04, 0.08, 0.16])
+    assert len(hexagon.graded_corners) == 6
+    assert not len(square.graded_corners)
+    # ψ ~ r^{3/2} takes the three largest nodes at both ends of a side.
+    places = hexagon.places(10.0, np.zeros(0), nodes)
+    assert places[:8] == pytest.approx([0.0, 0.04, 0.08, 0.16, 0.84, 0.92, 0.96, 1.0])
+    assert square.places(10.0, np.zeros(0), nodes) == pytest.approx([0.0, 1.0, 2.0, 3.0])

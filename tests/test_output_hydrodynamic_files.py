@@ -1,5 +1,6 @@
 """Files of WAMIT, BEMIO, Nemoh and Capytaine, read back by readers written from the formats' descriptions."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,8 +12,10 @@ import pytest
 import xarray
 from hydrodynamic_readers import Read, read_bemio, read_nemoh, read_wamit, rows
 
+from hydroelastic.benchmarks.peers import PeerError, peer_folder
 from hydroelastic.fem.open_water.results import RadiationTable, ResponseTable
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable
+from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
 from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
 from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
@@ -24,6 +27,7 @@ from hydroelastic.scenes.models import SeaScene
 from hydroelastic.scenes.models.physical import physical_tank
 
 WIDTH = 7.0
+MATRICES = ("added_mass", "radiation_damping")
 # Numbers are written with ten digits.
 DIGITS = 1e-8
 PHASE_AT = -0.5
@@ -229,25 +233,74 @@ def test_capytaine_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
     )
 
 
-def test_capytaine_finds_the_motions_in_waves(bodies: WholeBodies, tmp_path: Path) -> None:
-    """Its own functions read the dataset, and its own exporter agrees with WAMIT's files."""
-    pytest.importorskip("capytaine")
-    from capytaine.io.xarray import merge_complex_values
-    from capytaine.post_pro import rao
+@pytest.fixture
+def capytaine(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Capytaine where it is installed, if only for the benchmarks, behind all that the environment has."""
+    try:
+        folder = peer_folder("capytaine", install=False, report=lambda _message: None)
+    except PeerError as error:
+        pytest.skip(f"{error}; `./hydro bench` installs it")
+    if folder is not None:
+        monkeypatch.setattr(sys, "path", [*sys.path, str(folder)])
+    return pytest.importorskip("capytaine")
 
-    write_capytaine(bodies, tmp_path / "barge.nc")
-    dataset = merge_complex_values(xarray.load_dataset(tmp_path / "barge.nc"))
-    own = np.flatnonzero(bodies.modelled)
+
+def opened(path: Path) -> Any:
+    """A dataset as Capytaine takes it, complex."""
+    from capytaine.io.xarray import merge_complex_values
+
+    return merge_complex_values(xarray.load_dataset(path))
+
+
+@pytest.mark.parametrize("which", ["bodies", "beam"])
+def test_capytaine_finds_the_motions_in_waves(
+    which: str, capytaine: Any, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """Its own functions read the dataset, rigid bodies and elastic modes alike."""
+    whole: WholeBodies = request.getfixturevalue(which)
+    write_capytaine(whole, tmp_path / "barge.nc")
+    dataset = opened(tmp_path / "barge.nc")
+    own = np.flatnonzero(whole.modelled)
     matrices = np.ix_(own, own)
-    for row, omega in enumerate(bodies.omega):
+    found = capytaine.post_pro.rao(dataset, wave_direction=np.pi, stiffness=dataset.get("bending_stiffness"))
+    for row, omega in enumerate(whole.omega):
         impedance = (
-            -(omega**2) * (bodies.inertia + bodies.added_mass[row])
-            - 1j * omega * bodies.radiation_damping[row]
-            + bodies.stiffness
+            -(omega**2) * (whole.inertia + whole.added_mass[row])
+            - 1j * omega * whole.radiation_damping[row]
+            + whole.stiffness
+            + whole.bending_stiffness
         )[matrices]
-        expected = np.linalg.solve(impedance, bodies.excitation_force[row, 1, own])
-        found = rao(dataset, wave_direction=np.pi).sel(omega=omega).values.squeeze()
-        np.testing.assert_allclose(found, expected, rtol=1e-10)
+        expected = np.linalg.solve(impedance, whole.excitation_force[row, 1, own])
+        np.testing.assert_allclose(found.sel(omega=omega).values.squeeze(), expected, rtol=1e-10)
+
+
+@pytest.mark.usefixtures("capytaine")
+def test_capytaine_writes_the_same_files_of_wamit(section: SimpleNamespace, tmp_path: Path) -> None:
+    """Two writers of one format, of one body in heave, sway and roll."""
+    from capytaine.io.wamit import export_wamit_1, export_wamit_3
+
+    barge = scene().model_dump()["body"][0] | {"motions": ["heave", "sway", "roll"]}
+    dofs = tuple(Dof(name) for name in ("heave", "sway", "roll"))
+    one = scene(body=[{name: value for name, value in barge.items() if value is not None}])
+    # Capytaine has the motion before the force, which is the same of matrices that are symmetric.
+    given = section.radiation
+    symmetric = {name: getattr(given, name) + getattr(given, name).swapaxes(1, 2) for name in MATRICES}
+    radiation = replace(given, dofs=dofs, **symmetric)
+    whole = bodies_of_tables(physical_tank(one), [radiation], [], [], width=WIDTH)
+    write_wamit(replace(whole, limits=(None, None)), tmp_path, "ours")
+    write_capytaine(whole, tmp_path / "barge.nc")
+    dataset = opened(tmp_path / "barge.nc")
+    export_wamit_1(dataset, str(tmp_path / "theirs.1"))
+    export_wamit_3(dataset, str(tmp_path / "theirs.3"))
+    # Of phases they write three decimals.
+    for kind, columns in (("1", [3, 4]), ("3", [3, 5, 6])):
+        ours, theirs = (
+            {tuple(np.round(row[:3], 3)): row[columns] for row in rows(tmp_path / f"{who}.{kind}")}
+            for who in ("ours", "theirs")
+        )
+        # Six digits are written there.
+        for at, values in ours.items():
+            np.testing.assert_allclose(theirs[at], values, rtol=2e-6, atol=1e-6, err_msg=f".{kind} {at}")
 
 
 SOLIDS = (Dof("body_1__heave"), Turn("body_1__pitch"), Dof("body_2__surge"))
@@ -261,7 +314,7 @@ def solids(section: SimpleNamespace) -> WholeBodies:
     ring = body | {"radius": 4.0, "inner_radius": 2.0, "motions": ["surge"]}
     radiation = replace(section.radiation, dofs=SOLIDS)
     # Heave is of another order than surge and pitch.
-    for name in ("added_mass", "radiation_damping"):
+    for name in MATRICES:
         values = getattr(radiation, name).copy()
         values[:, 0, 1:] = values[:, 1:, 0] = 0.0
         radiation = replace(radiation, **{name: values})
@@ -310,8 +363,119 @@ def test_files_of_solids_are_read_back(solids: WholeBodies, tmp_path: Path) -> N
         assert dataset.hydrostatic_stiffness.shape == (5, 5)
 
 
+BEAM: dict[str, Any] = {
+    "start": 10.0,
+    "sections": [
+        {"length": 2.0, "flexural_rigidity": 3e5, "mass_per_length": 300.0},
+        {"length": 4.0, "flexural_rigidity": 1e5, "mass_per_length": 90.0},
+    ],
+}
+OF_BEAM = tuple(Dof(f"body_2__{name}") for name in ("heave", "pitch", "elastic 1", "elastic 2"))
+
+
+@pytest.fixture(scope="module")
+def beam(section: SimpleNamespace) -> WholeBodies:
+    """A barge that heaves and a beam of two sections, in arbitrary numbers but for what the beam itself is."""
+    dofs = (Dof("body_1__heave"), *OF_BEAM)
+    barge = {"kind": "float", "shape": "rectangle", "half_width": 2.0, "half_height": 1.0, "motions": ["heave"]}
+    tank = physical_tank(scene(body=[barge | {"position": 1.0}, BEAM]))
+    shapes = beam_shapes(tank.beams[1], len(OF_BEAM))
+    inertia, stiffness = np.diag([5e3, *np.zeros(4)]), np.diag([4e4, *(1025.0 * 9.8 * 6.0 + shapes.bending)])
+    inertia[1:, 1:] = shapes.mass
+    random = np.random.default_rng(7)
+    numbers = {
+        "added_mass": random.uniform(1e2, 1e3, (4, 5, 5)),
+        "radiation_damping": random.uniform(1e2, 1e3, (4, 5, 5)),
+        "froude_krylov_force": random.uniform(1e2, 1e3, (4, 1, 2, 5)) * np.exp(2j),
+        "diffraction_force": random.uniform(1e2, 1e3, (4, 1, 2, 5)) * np.exp(1j),
+    }
+    radiation = replace(section.radiation, dofs=dofs, inertia=inertia, stiffness=stiffness, **numbers)
+    response = SimpleNamespace(
+        omega=np.array([1.0]),
+        # More modes move than radiation reports.
+        dofs=(*dofs, Dof("body_2__elastic 3")),
+        waves_from="left",
+        amplitudes=random.uniform(1.0, 2.0, (1, 1, 6)) * np.exp(1j),
+    )
+    impulse = SimpleNamespace(
+        times=section.impulse.times,
+        impulse_response=random.uniform(1e2, 1e3, (9, 5, 5)),
+        infinite_frequency_added_mass=random.uniform(1e2, 1e3, (5, 5)),
+    )
+    return bodies_of_tables(tank, [radiation], [cast(Any, response)], [cast(Any, impulse)], width=WIDTH)
+
+
+def test_a_beam_moves_about_its_centre_of_gravity_and_bends(beam: WholeBodies) -> None:
+    heave, pitch, first = 8, 10, 12
+    assert np.flatnonzero(beam.modelled).tolist() == [2, heave, pitch, first, first + 1]
+    assert [own.stop for own in beam.spans] == [6, 14]
+    assert beam.bodies[1].motions[6:] == ("Elastic 1", "Elastic 2")
+    mass = 2.0 * 300.0 + 4.0 * 90.0
+    centre = (600.0 * 1.0 + 360.0 * 4.0) / mass
+    assert beam.bodies[1].centre_of_gravity == pytest.approx((10.0 + centre - PHASE_AT, 0.0, 0.0))
+    assert beam.bodies[1].volume == pytest.approx(WIDTH * mass / 1025.0)
+    # ∫m (x − x_G)² dx; heave and pitch about the centre of gravity do not couple, nor do they bend the beam.
+    moment = 600.0 * (4.0 / 12.0 + (1.0 - centre) ** 2) + 360.0 * (16.0 / 12.0 + (4.0 - centre) ** 2)
+    assert beam.inertia[heave, heave] == pytest.approx(WIDTH * mass)
+    assert beam.inertia[pitch, pitch] == pytest.approx(WIDTH * moment)
+    assert beam.inertia[heave, pitch] == pytest.approx(0.0, abs=1e-9 * WIDTH * moment)
+    # ρg∫(x − x_G) dx: heave raises the bow, to the right, that positive pitch lowers.
+    weight = 1025.0 * 9.8 * WIDTH
+    assert beam.stiffness[heave, pitch] == pytest.approx(-weight * 6.0 * (3.0 - centre))
+    assert beam.stiffness[pitch, pitch] == pytest.approx(weight * (6.0**3 / 12.0 + 6.0 * (3.0 - centre) ** 2))
+    assert beam.stiffness[first, first] == pytest.approx(weight * 6.0)
+    assert np.flatnonzero(beam.bending_stiffness.diagonal()).tolist() == [first, first + 1]
+    assert np.all(beam.stiffness[:2] == 0.0)
+
+
+def test_power_and_deflection_of_a_beam_are_those_of_the_tables(beam: WholeBodies) -> None:
+    # The deflection of the right end: heave at the centre, less pitch, and the third of three unknowns.
+    motions = beam.motions[0].amplitudes[0]
+    random = np.random.default_rng(7)
+    for shape in ((4, 5, 5), (4, 5, 5), (4, 1, 2, 5), (4, 1, 2, 5)):
+        random.uniform(size=shape)
+    heave, pitch, *elastic = random.uniform(1.0, 2.0, (1, 1, 6))[0, 0, 1:] * np.exp(1j)
+    right = 16.0 - PHASE_AT - beam.bodies[1].centre_of_gravity[0]
+    assert motions[8] - right * motions[10] == pytest.approx(heave + np.sqrt(3.0) * pitch)
+    np.testing.assert_allclose(motions[12:], elastic[:2])
+
+
+def test_files_of_beams_are_read_back(beam: WholeBodies, tmp_path: Path) -> None:
+    write_wamit(beam, tmp_path, "beam")
+    read, _, stiffness = read_wamit(tmp_path, "beam", 14)
+    agrees(read, beam)
+    np.testing.assert_allclose(stiffness, beam.stiffness / (beam.density * beam.gravity), rtol=DIGITS)
+    assert (tmp_path / "beam.cfg").read_text().split() == ["NEWMDS(1)=0", "NEWMDS(2)=2"]
+    external = np.array([line.split() for line in (tmp_path / "beam.mmx").read_text().splitlines()[2:]], dtype=float)
+    np.testing.assert_allclose(external[:, 2].reshape(14, 14), beam.inertia, rtol=DIGITS, atol=1e-6)
+    np.testing.assert_allclose(external[:, 4].reshape(14, 14), beam.bending_stiffness, rtol=DIGITS)
+    write_bemio(beam, tmp_path / "beam.h5")
+    agrees(read_bemio(tmp_path / "beam.h5", 2), beam)
+    with h5py.File(tmp_path / "beam.h5") as file:
+        properties = file["body2/properties"]
+        assert [properties[name][0, 0] for name in ("dof", "dof_start", "dof_end")] == [8.0, 7.0, 14.0]
+        # MATLAB's order of dimensions is the opposite one.
+        np.testing.assert_array_equal(properties["mass"][:, :, 0], beam.inertia[6:])
+        np.testing.assert_array_equal(properties["stiffness"][:, :, 0], beam.bending_stiffness[6:])
+        restoring = file["body2/hydro_coeffs/linear_restoring_stiffness"][:, :, 0]
+        np.testing.assert_allclose(restoring, beam.stiffness[6:, 6:] / (beam.density * beam.gravity))
+    write_nemoh(beam, tmp_path)
+    agrees(read_nemoh(tmp_path, beam.density, beam.gravity), beam)
+    numbers = [line.split()[0] for line in (tmp_path / "Nemoh.cal").read_text().splitlines() if "Number of deg" in line]
+    assert numbers == ["6", "8"]
+    np.testing.assert_allclose(rows(tmp_path / "mesh" / "KH_1.dat"), beam.stiffness[6:, 6:], rtol=DIGITS, atol=1e-3)
+    write_capytaine(beam, tmp_path / "beam.nc")
+    with xarray.open_dataset(tmp_path / "beam.nc") as dataset:
+        one = {"radiating_dof": "body_2__Elastic 1", "influenced_dof": "body_1__Heave"}
+        np.testing.assert_array_equal(dataset.added_mass.sel(one), beam.added_mass[:, 2, 12])
+        assert float(dataset.bending_stiffness.sel(one | {"influenced_dof": "body_2__Elastic 1"})) > 0.0
+
+
 EXPORT = {"formats": ["wamit"], "width": 3.0}
 IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
+OF_RADIATION: dict[str, Any] = {"kind": "radiation", "omega": [0.5, 1.0]}
+DISC = {"kind": "plate", "outline": "disc", "radius": 5.0, "youngs_modulus": 6e9, "thickness": 1.0, "density": 900.0}
+DISC |= {"poisson_ratio": 0.3}
 
 
 @pytest.mark.parametrize(
@@ -323,6 +487,11 @@ IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
         ({"export": {"formats": ["hydrostar"], "width": 1.0}}, "formats"),
         ({"export": EXPORT, "analysis": []}, "analysis of radiation"),
         ({"export": EXPORT, "liquid": [{"density": 1025.0, "depth": 3.0}, {"density": 1.2, "depth": 5.0}]}, "two"),
+        ({"export": {"formats": ["wamit"]}, "body": [DISC]}, "a plate is neither"),
+        (
+            {"export": EXPORT, "body": [BEAM], "analysis": [OF_RADIATION, OF_RADIATION | {"elastic_modes": 2}]},
+            "different elastic_modes",
+        ),
         ({"export": EXPORT | {"formats": ["bemio"]}}, "impulse responses at equally spaced times"),
         (
             {"export": EXPORT | {"formats": ["nemoh"]}, "analysis": [{"kind": "radiation", "omega": [0.5, 1.0, 2.0]}]},

@@ -282,6 +282,26 @@ def test_fields_are_where_the_page_says_and_colours_are_those_of_the_values() ->
     assert np.isnan(sampled[2]).all()
 
 
+def test_a_triangle_fills_the_pixels_whose_middles_are_in_it() -> None:
+    middles = np.stack(np.meshgrid(np.arange(60) + 0.5, np.arange(40) + 0.5), axis=-1)
+    # Corners in all orders; the third one with an edge along a row.
+    for corners in (
+        np.array([[7.3, 3.1], [51.2, 17.4], [20.9, 37.6]]),
+        np.array([[30.2, 38.3], [3.7, 21.9], [44.1, 2.8]]),
+        np.array([[5.0, 9.0], [50.0, 9.0], [31.7, 33.3]]),
+    ):
+        image = Raster(points=corners, triangles=np.array([[0, 1, 2]]), size=(60, 40)).coloured(
+            np.full(3, 0.9), 1.0, mode_colours()
+        )
+        edges = np.roll(corners, -1, axis=0) - corners
+        away = middles[:, :, None] - corners
+        sides = (edges[:, 0] * away[..., 1] - edges[:, 1] * away[..., 0]) / np.hypot(*edges.T)
+        inside = np.maximum(sides.min(axis=2), (-sides).min(axis=2))
+        # Triangles are larger by a twentieth of a pixel along the rows, and a little more across them.
+        assert (image[inside > 0.0, :3].min(axis=1) < 200).all()
+        assert (image[inside < -0.1, :3] == 255).all()
+
+
 def test_pictures_are_in_full_colour_and_letters_are_as_they_are(tmp_path: Path) -> None:
     """A pair of dollar signs would make a formula in a title."""
     for name, title in (("one", "cost $a$"), ("other", "cost a")):

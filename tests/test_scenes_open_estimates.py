@@ -10,10 +10,11 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float_comparisons
 from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.scenes.models.bodies import Beam, Float
-from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
+from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.check import open_requests
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution

@@ -132,6 +132,22 @@ def test_phases_are_counted_from_the_origin_of_the_scene() -> None:
     assert ahead == pytest.approx(table.transmission[row, 0, 0] * wave, abs=VALUES)
 
 
+def test_radiated_fields_are_those_of_the_frequencies_asked_for(
+    radiated: tuple[OpenSolution, list[SampledField]],
+) -> None:
+    solution, ((first, *_), asked) = radiated[0], (radiated[1], 0.9)
+    table = replace(solution.radiation[0], fields_at=(first.omega.real, asked * first.omega.real))
+    fields = [sample_field(field) for field in fields_of(replace(solution, radiation=(table,)))]
+    found = {field.name: field for field in fields if field is not None}
+    assert list(found) == [f"radiation_1_{motion}_00{number}" for motion in ("heave", "sway") for number in (1, 2)]
+    assert found["radiation_1_heave_002"].omega == pytest.approx(asked * first.omega)
+    # The same field in a basin for other frequencies, and another one.
+    same, other = (abs(elevation(found[f"radiation_1_heave_00{number}"], 9.0)[1]) for number in (1, 2))
+    # Heights do not depend on which point is drawn next to a place.
+    assert same == pytest.approx(abs(elevation(first, 9.0)[1]), rel=3e-3)
+    assert abs(other / same - 1.0) > 0.02
+
+
 def test_radiated_waves_carry_the_power_of_damping(radiated: tuple[OpenSolution, list[SampledField]]) -> None:
     solution, fields = radiated
     table = solution.radiation[0]

@@ -16,9 +16,10 @@ from scene_files import CIRCLE_IN_OPEN_WATER
 
 from hydroelastic.output.check_text import print_check
 from hydroelastic.scenes.errors import SceneError, scene_error
-from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance, Response
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.read import read_scene
 

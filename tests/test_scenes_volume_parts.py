@@ -6,15 +6,19 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import gmsh
 import numpy as np
 import pytest
+from mpi4py import MPI
 
+from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.output.level_tank.floats import FLOATS, floats_at_rest
 from hydroelastic.physics.obstacles import LevelBaffle, VerticalBaffle
 from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.level_tank.check import check_level_tank
+from hydroelastic.scenes.level_tank.solve import solve_level_scene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 from hydroelastic.scenes.read import read_scene
@@ -141,6 +145,26 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         {"liquid": [{"density": 1025.0, "depth": 2.0}, {"density": 1000.0, "depth": 0.5}], "body": [OUTLINE]},
         "no liquid of the upper one below",
     ),
+    "bed on a line": (
+        {
+            "tank": {
+                "length": 10.0,
+                "width": 6.0,
+                "bed": {"points": [[0.0, 0.0, 0.0], [5.0, 1.0, 0.5], [10.0, 2.0, 0.2]]},
+            }
+        },
+        "lie on a line",
+    ),
+    "bed with a point twice": (
+        {
+            "tank": {
+                "length": 10.0,
+                "width": 6.0,
+                "bed": {"points": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [10.0, 2.0, 0.2], [2.0, 6.0, 0.1]]},
+            }
+        },
+        "in one place",
+    ),
     "baffle over a surveyed bed": (
         {
             "tank": {
@@ -161,6 +185,40 @@ def test_what_does_not_fit_is_refused(case: str) -> None:
     given: dict[str, Any] = {"tank": {"length": 10.0, "width": 6.0}, "liquid": [WATER]}
     with pytest.raises((SceneError, ValueError), match=said):
         LevelTankScene(**(given | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"baffle": [{"start": [12.0, 0.0], "end": [12.0, 6.0]}]}, "a baffle does not lie in the liquid"),
+        (
+            {"body": [CYLINDER | {"draught": 0.5}], "baffle": [{"start": [5.0, 0.0], "end": [5.0, 6.0]}]},
+            "a baffle meets a float",
+        ),
+    ],
+)
+def test_what_only_its_volume_shows_is_an_error_of_the_scene(changes: dict[str, Any], said: str) -> None:
+    """With the exit code of one: nothing can be solved until the scene is mended."""
+    scene = LevelTankScene(**({"tank": {"length": 10.0, "width": 6.0}, "liquid": [WATER]} | changes))
+    with pytest.raises(SceneError, match=said):
+        list(check_level_tank(scene))
+    with pytest.raises(SceneError, match=said):
+        solve_level_scene(scene, MPI.COMM_SELF, lambda _message: None)
+
+
+@pytest.mark.parametrize("x", [9.0, 0.5])
+def test_a_float_beside_a_solid_of_cad_or_at_its_wall_is_refused(x: float, tmp_path: Path) -> None:
+    with gmsh_model():
+        gmsh.model.occ.addBox(0.0, 0.0, 0.0, 4.0, 3.0, 2.0)
+        gmsh.model.occ.synchronize()
+        gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+        gmsh.write(str(tmp_path / "tank.step"))
+    body = CYLINDER | {"radius": 0.5, "draught": 0.4, "position": [x, 1.5], "vertical_centre_of_gravity": -0.1}
+    scene = LevelTankScene(tank={"shape": str(tmp_path / "tank.step")}, liquid=[WATER], body=[body])
+    with pytest.raises(SceneError, match="body 1 does not lie in the liquid, or touches the tank"):
+        list(check_level_tank(scene))
+    inside = scene.model_copy(update={"body": (scene.body[0].model_copy(update={"position": (2.0, 1.5)}),)})
+    assert any("tetrahedra" in line for line in list(check_level_tank(inside))[-1].lines)
 
 
 def test_a_hull_with_a_hole_is_refused_with_file_and_place(tmp_path: Path) -> None:

@@ -20,12 +20,12 @@ from functools import partial
 from pathlib import Path
 from mpi4py import MPI
 from hydroelastic.fem import checkpoint
-from hydroelastic.fem.volume import solve
+from hydroelastic.fem.volume import resolution, solve
 from hydroelastic.scenes.__main__ import start
 
 folder, how = Path(sys.argv.pop(1)), sys.argv.pop(1)
 checkpoint.cache_folder = lambda: folder
-solve.DIRECT_UNKNOWNS = 0
+resolution.DIRECT_UNKNOWNS = solve.DIRECT_UNKNOWNS = 0
 solve.direct_or_multigrid = partial(solve.direct_or_multigrid, largest=0)
 product, meshed = checkpoint.Checkpoint.product, solve.distributed_volume
 

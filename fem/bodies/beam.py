@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import lru_cache, partial
 from math import ceil, pi
 
 import numpy as np
@@ -43,15 +43,14 @@ class BeamModel(BodyModel):
         part = 1.0 if parity is None else 0.5
         shapes = beam_shapes(beam, count)
         # Two asymmetric beams that are mirror images have mirrored shapes: all count as even.
-        parities: tuple[Parity, ...] = tuple("symmetric" if sign > 0 else "antisymmetric" for sign in shapes.parities)
-        numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
+        parities, numbers = _parities(shapes.parities, parity)
         bending = part * shapes.bending[numbers]
         return Body(
             surface=body_name(self.index + 1),
             shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
             wavenumber=shapes.wavenumber,
             dofs=tuple(shapes.dofs[number] for number in numbers),
-            parities=tuple(parities[number] for number in numbers),
+            parities=parities,
             motions=np.eye(len(numbers)),
             stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
             bending_stiffness=bending,
@@ -90,6 +89,14 @@ class BeamModel(BodyModel):
         heave = beam.mass_per_length + _DEEP_HEAVE * liquid
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
         return ((first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia,)
+
+
+@lru_cache(maxsize=64)
+def _parities(signs: tuple[int, ...], parity: Parity | None) -> tuple[tuple[Parity, ...], list[int]]:
+    """Parities and numbers of the shapes of one parity, or of all of them."""
+    parities: list[Parity] = ["symmetric" if sign > 0 else "antisymmetric" for sign in signs]
+    numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
+    return tuple(parities[number] for number in numbers), numbers
 
 
 def _shape_at(

@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
+from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body
@@ -32,7 +33,7 @@ class FloatModel(BodyModel):
     def ends_of_motions(self) -> tuple[float, ...]:
         """See `BodyModel.ends_of_motions`: multiples of the λ at infinite frequency of the restored motions."""
         body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
-        width = body.stiffness[0, 0] / level.jump
+        width = body.hydrostatics.heave_stiffness / level.jump
         ends = []
         for motion in body.motions:
             place = PLACES[motion]
@@ -46,9 +47,9 @@ class FloatModel(BodyModel):
 def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) -> Body:
     """A float in its principal motions; dimensionless.
 
-    They are heave, sway and roll where gravity does not couple heave and roll, as it does in a section that is not its
-    own mirror image. The two are then replaced by the motions in which the float alone, without liquid, would oscillate
-    under its hydrostatic stiffness; each has the name and unit of the one with the larger part of its kinetic energy.
+    They are heave, sway and roll where neither gravity, as in a section that is not its own mirror image, nor springs
+    couple these. Those that are coupled are replaced by the motions in which the float alone, without liquid, would
+    oscillate; each has the name and unit of the one with the largest part of its kinetic energy.
 
     Args:
         body: the float.
@@ -90,13 +91,15 @@ def principal_motions(
     # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
     units = np.array([1.0 / body.hull.smallest_extent if place == 2 else 1.0 for place in places])
     alike = np.abs(stiffness * units * units[:, None])
-    if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
-        pair = [motions.index("heave"), motions.index("roll")]
-        _, vectors = eigh(stiffness[np.ix_(pair, pair)], np.diag(inertia[pair]))
-        # Of two vectors orthogonal in the inertia, one is dominated by heave and the other by roll.
-        if abs(vectors[0, 0]) ** 2 * inertia[pair[0]] < 0.5:
-            vectors = vectors[:, ::-1]
-        turn[np.ix_(pair, pair)] = vectors / np.diag(vectors)
+    apart = alike - np.diag(np.diag(alike)) > _NEGLIGIBLE * alike.max(initial=0.0)
+    if apart.any():
+        coupled = np.flatnonzero(apart.any(axis=0))
+        own = np.ix_(coupled, coupled)
+        _, vectors = eigh(stiffness[own], np.diag(inertia[coupled]))
+        # Of vectors orthogonal in the inertia, each is named after the motion that dominates it.
+        _, order = linear_sum_assignment(-(vectors**2) * inertia[coupled, None])
+        vectors = vectors[:, order]
+        turn[own] = vectors / np.diag(vectors)
     restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
     restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
     return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)

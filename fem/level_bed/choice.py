@@ -44,8 +44,6 @@ def level_model(physical: LevelTank) -> LevelModel:
         return "orders"
     if any(plate.slats for plate in tank.plates):
         raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
-    if tank.top == "pressure_release" and tank.plates:
-        raise NotTreatedError("ψ = 0 on the water is for strips in a box, and discs and rings about a cylinder's axis")
     if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
         return "box"
     _require_plan(tank)
@@ -83,8 +81,6 @@ def models_of(physical: LevelTank) -> tuple[LevelModel, ...]:
     found = [level_model(physical)]
     plates = physical.plates
     if found[0] == "volume":
-        return tuple(found)
-    if physical.top == "pressure_release" and plates:
         return tuple(found)
     if found[0] == "orders" and isinstance(physical.plan, Box) and not any(plate.slats for plate in plates):
         found.append("box")

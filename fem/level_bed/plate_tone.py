@@ -41,7 +41,7 @@ ROUNDING = 1e-13
 _ROUNDS = 3
 # Tolerance at which the number of modes up to the tone is found.
 _SEARCHED = 1e-3
-# Modes of an order with ψ = 0 on the water that contain the tone.
+# Modes of an order with ψ = 0 on the water among which the tone is sought first.
 _MODES_OF_A_PLATE = 6
 
 
@@ -194,10 +194,15 @@ def _once(
     problem = order_problem(tank, separation, resolution, order, pressure_release=pressure_release)
     assert problem is not None
     pencil, shapes = problem
-    modes = solve_modes(pencil, count, shapes=0)
     body = list(shapes).index(plate)
     first = pencil.bodies[body].dofs.index(FIRST_ELASTIC)
-    tone = elastic_tone(modes, pencil.bodies, body, pressure_release=release)
+    while True:
+        modes = solve_modes(pencil, count, shapes=0)
+        tone = elastic_tone(modes, pencil.bodies, body, pressure_release=release)
+        # With ψ = 0 on the water all modes are those of plates, and the softer plates' are below.
+        if tone.certain or not pressure_release or len(modes.eigenvalues) < count:
+            break
+        count *= 2
     found = _Found(
         tone=tone,
         eigenvalue=float(modes.eigenvalues[tone.index]),

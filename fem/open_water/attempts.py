@@ -54,5 +54,5 @@ def best_over_band(
         band: the frequencies.
         solve: solves at a resolution.
     """
-    tank = open_basin(problem.tank, band.wavenumbers(problem.tank)[1]).tank
+    tank = open_basin(problem.tank, band.wavenumbers(problem.tank)[1], reach=band.reach).tank
     return best_in_basin(tank, problem.tolerance, solve, first_resolution(problem.tank, problem.tolerance, band))

@@ -107,7 +107,9 @@ class OpenBasin:
         return travelling_waves(self.scaled_layers, omega)
 
 
-def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> OpenBasin:
+def open_basin(
+    water: Tank, shortest: float, *, drawn: float | None = None, reach: tuple[float, float] | None = None
+) -> OpenBasin:
     """Cut a basin out of open water.
 
     Args:
@@ -115,6 +117,7 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         shortest: the largest wavenumber of the outgoing waves, 1/m; 0 if there are none.
         drawn: for a basin that contains the length of the scene, as a picture needs it: largest distance from the
             bodies to each side, in radians of the shortest wave. ``None`` for forces and motions alone.
+        reach: smallest and largest x that the basin contains at least, m.
     """
     left, right, low, high = extent_of_bodies(water)
     solid = water.geometry.is_revolved
@@ -130,6 +133,8 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
             min(max(left - water.start, least), most),
             min(max(water.start + water.length - right, least), most),
         )
+    if reach is not None:
+        margins = max(margins[0], left - reach[0]), max(margins[1], reach[1] - right)
     if solid:
         left, margins = 0.0, (0.0, margins[1])
     length = right - left + sum(margins)

@@ -35,6 +35,7 @@ class Curves:
         omegas: ascending, rad/s, shape (n,).
         responses: at these.
         errors: estimated relative errors, shape (n,).
+        reduced: those by the reduced basis alone, shape (n,).
         incident: indices of the incident waves.
         ratio: relative error of the basis over the square of its residual.
     """
@@ -43,6 +44,7 @@ class Curves:
     omegas: np.ndarray
     responses: list[OpenResponse]
     errors: np.ndarray
+    reduced: np.ndarray
     incident: list[int]
     ratio: float
 
@@ -50,12 +52,14 @@ class Curves:
         """Return the responses at all these frequencies and further ones, within the same limits (collective)."""
         union = np.union1d(self.omegas, omegas)
         places = [int(place) for place in np.searchsorted(union, self.omegas)]
-        errors = between(union, places, self.errors)
+        errors, reduced = (between(union, places, own) for own in (self.errors, self.reduced))
         found = dict(zip(places, self.responses, strict=True))
         for place in sorted(set(range(len(union))) - set(places)):
             found[place], residual = self.solver.response_between(float(union[place]), self.incident)
-            errors[place] += self.ratio * residual**2
-        return replace(self, omegas=union, responses=[found[place] for place in range(len(union))], errors=errors)
+            for own in (errors, reduced):
+                own[place] += self.ratio * residual**2
+        responses = [found[place] for place in range(len(union))]
+        return replace(self, omegas=union, responses=responses, errors=errors, reduced=reduced)
 
     @property
     def order(self) -> int:
@@ -84,7 +88,7 @@ def certified_curves(
     if curves.errors.max() <= SHARE * tolerance:
         return curves
     swept = sweep(problem, curves.omegas, tolerance)
-    return replace(curves, responses=swept.solutions, errors=swept.errors)
+    return replace(curves, responses=swept.solutions, errors=swept.errors, reduced=swept.errors)
 
 
 def refined_curves(
@@ -126,11 +130,13 @@ def refined_curves(
                 halves += [(low, middle), (middle, high)]
         intervals = halves
     known = np.array(sorted(found))
+    reduced = np.array([errors[omega] for omega in known])
     return Curves(
         solver=solver,
         omegas=known,
         responses=[found[omega] for omega in known],
-        errors=np.array([errors[omega] for omega in known]),
+        errors=reduced,
+        reduced=reduced,
         incident=incident,
         ratio=swept.ratio,
     )

@@ -96,7 +96,7 @@ class FarField:
 
         No corner of a hull lies in the band, at which |∇Ψ|² is not bounded: the integral converges as energies do.
 
-        Source: X.-B. Chen, J. Eng. Math. 58 (2007) 71, of a control surface at some distance.
+        Source: X.-B. Chen, J. Eng. Math. 59 (2007) 61, of a control surface at some distance.
 
         Args:
             squared: λ.

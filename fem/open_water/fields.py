@@ -4,7 +4,7 @@ Forces and motions need a basin close around the bodies; a picture shows the who
 therefore solved for once more, in a basin of that length, to the accuracy of a picture. The frequencies are those of
 the tables:
 
-    radiation    for each motion of a body, where its damping is largest
+    radiation    for each motion of a body, where its damping is largest, or as asked
     response     where the motion of a body is largest, for the incident wave that causes it, or as asked
     resonance    each of the resonances of lowest |ω|
 """
@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from math import log
 
 import numpy as np
@@ -102,30 +103,36 @@ def _model(
 
 
 def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> Iterator[OpenField]:
-    """Motions of 1 m or 1 rad at the frequencies of largest damping."""
+    """Motions of 1 m or 1 rad at the frequencies of largest damping, or at those asked for."""
     waves = np.isfinite(table.omega) & (table.omega > 0.0)
     damping = np.where(waves[:, None], np.diagonal(table.radiation_damping, axis1=1, axis2=2), 0.0)
     shown = [place for place in range(len(table.dofs)) if damping[:, place].max(initial=0.0) > 0.0][:_MOST_FIELDS]
     if not shown:
         return
-    peaks = {place: float(table.omega[np.argmax(damping[:, place])]) for place in shown}
-    model = _model(problem, min(peaks.values()), max(peaks.values()), motions=max(shown) + 1)
-    solver = OpenSolver(model, problem.watch)
-    for place, omega in peaks.items():
-        squared, dof = model.squared_frequency(omega), table.dofs[place]
+    peaks = [(place, (float(table.omega[np.argmax(damping[:, place])]),)) for place in shown]
+    asked = [(place, table.fields_at or own) for place, own in peaks]
+    known = [omega for _, omegas in asked for omega in omegas]
+    model = _model(problem, min(known), max(known), motions=max(shown) + 1)
+    solver, why = OpenSolver(model, problem.watch), "" if table.fields_at else _why("damping is largest", table)
+    radiation = cache(solver.radiation)
+    for place, omegas in asked:
+        dof = table.dofs[place]
         # Beams have more shapes here than the table may report.
         own = model.scale.dofs.index(dof)
         bodies = np.linalg.inv(model.scale.turn)[:, own].astype(complex)
-        yield OpenField(
-            name=f"radiation_{number}_{dof.replace(' ', '_')}",
-            title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
-            amplitude=_unit_motion(model, own),
-            model=model,
-            squared=squared,
-            potential=bodies @ solver.radiation(squared),
-            bodies=bodies,
-            metres=_metres(model, own),
-        )
+        for number_of_field, omega in enumerate(omegas, 1):
+            squared = model.squared_frequency(omega)
+            yield OpenField(
+                name=f"radiation_{number}_{dof.replace(' ', '_')}"
+                + (f"_{number_of_field:03d}" if len(omegas) > 1 else ""),
+                title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s{why}",
+                amplitude=_unit_motion(model, own),
+                model=model,
+                squared=squared,
+                potential=bodies @ radiation(squared),
+                bodies=bodies,
+                metres=_metres(model, own),
+            )
 
 
 def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[OpenField]:

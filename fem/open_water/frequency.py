@@ -126,7 +126,8 @@ class OpenResponse:
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
         fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ of these waves, shape (incident, free unknowns), with motions like `motions`.
+        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each incident one, shape
+            (k, incident), and of motions, shape (k, body unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
         equations: from which the motions follow, without drag.
@@ -137,7 +138,7 @@ class OpenResponse:
     incidence: Incidence
     incident: list[int]
     fluxes: np.ndarray
-    potentials: Callable[[np.ndarray], np.ndarray]
+    potentials: Callable[[np.ndarray, np.ndarray], np.ndarray]
     motions: np.ndarray
     absorbed: np.ndarray
     equations: BodyEquations
@@ -145,7 +146,25 @@ class OpenResponse:
     @cached_property
     def scattered(self) -> np.ndarray:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
-        return self.potentials(self.motions)
+        return self.potentials(np.eye(len(self.incident)), self.motions)
+
+    @cached_property
+    def missed(self) -> tuple[np.ndarray, np.ndarray]:
+        """Energy error of `scattered` away from tips and at tips, each of shape (incident,) (collective)."""
+        return self.model.energies_missed(self.scattered)
+
+    @property
+    def reflected(self) -> float:
+        """Part of the power of outgoing waves that the ends of the absorbing layer reflect at most."""
+        return self.model.reflected(float(self._wavenumbers.min()))
+
+    @property
+    def scattered_powers(self) -> np.ndarray:
+        """Power of the radiated and diffracted waves over ½ω³, shape (incident,)."""
+        incidence = self.incidence
+        scattered = self.outgoing() - incidence.incoming * np.eye(len(incidence.planes))[:, self.incident]
+        powers: np.ndarray = incidence.powers @ np.abs(scattered) ** 2
+        return powers
 
     def outgoing(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident).

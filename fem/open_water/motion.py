@@ -6,7 +6,8 @@ and impulse responses those of `radiation_memory`; a(ω) and b(ω) of the former
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class MotionSolution:
 
 
 def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: WaterMemory) -> MotionSolution:
-    """Solve for the motion from rest in waves (collective).
+    """Solve for the motion from rest or a release in waves, or in still water (collective).
 
     Args:
         problem: the open water.
@@ -54,7 +55,8 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
     )
     times = np.array(request.times)
     distinct, place = np.unique(omega, return_inverse=True)
-    asked = RadiationRequest(omega=tuple(distinct.tolist()), elastic_modes=request.elastic_modes)
+    # Inertia and stiffness are needed without waves, too.
+    asked = RadiationRequest(omega=tuple(distinct.tolist()) or (inf,), elastic_modes=request.elastic_modes)
     radiation = solve_radiation(problem, asked)
     table = radiation.table
     tank = problem.tank
@@ -74,12 +76,19 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
         stiffness=table.stiffness,
         outside=water.model.scale.outside(water.model.outside),
     )
-    displacement, velocity = bodies.motion(forces, times, _STEPS * problem.tolerance)
+    initial, steps = np.array(request.initial(table.dofs)), _STEPS * problem.tolerance
+    displacement, velocity = bodies.motion(forces, times, steps, initial)
     turning = np.exp(-1j * np.outer(times, omega))
-    errors = bodies.errors(forces, max(radiation.error, water.error, float(water.causality_error.max())))
-    sizes = np.abs(bodies.steady(forces)).sum(axis=0)
+    relative = max(radiation.error, water.error, float(water.causality_error.max()))
+    errors, sizes = bodies.errors(forces, relative), np.abs(bodies.steady(forces)).sum(axis=0) + np.abs(initial)
+    if initial.any():
+        other, _ = replace(bodies, memory=water.memory.scaled(1.0 + relative)).motion(forces, times, steps, initial)
+        errors = errors + np.abs(other - displacement).max(axis=0)
     turns = np.array([dof.is_rotation for dof in table.dofs])
-    error = max(float(errors[turns == turn].max() / sizes[turns == turn].max()) for turn in set(turns.tolist()))
+    # An order of a solid may be at rest.
+    error = max(
+        float(errors[turns == turn].max() / (sizes[turns == turn].max() or 1.0)) for turn in set(turns.tolist())
+    )
     return MotionSolution(
         table=MotionTable(
             times=times,
@@ -89,6 +98,7 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
             wave_amplitude=amplitude,
             wave_phase=phase,
             ramp=request.ramp,
+            initial=initial,
             elevation=(turning @ waves).real,
             displacement=displacement,
             velocity=velocity,

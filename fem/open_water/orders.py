@@ -327,6 +327,7 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
         displacement=motions("displacement"),
         velocity=motions("velocity"),
         steady=motions("steady"),
+        initial=motions("initial"),
         relative_error=max(table.relative_error for table in tables),
     )
     return replace(_largest(found), table=table, error=_error(found))

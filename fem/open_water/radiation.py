@@ -186,6 +186,7 @@ def _tabulated(
         stiffness=scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies]))),
         infinite_frequency_added_mass=rows[np.inf].added_mass if np.inf in rows else None,
         factorizations=attempt.result.factorizations if attempt else 0,
+        fields_at=request.fields_at,
     )
     return RadiationSolution(table=table, model=attempt.result.model if attempt else None, error=max(errors))
 

@@ -52,6 +52,18 @@ _SEARCHED = 0.35
 _BESIDE = 1.0 - 0.02j
 # Part of H that a resonance of the water adds to it at the same frequency, below which it is none.
 _NO_PEAK = 1e-8
+# Relative change of a resonance by a solution beside it, above which it may be one of the basis alone, and the number
+# of times that such solutions are added.
+_STILL, _ROUNDS = 1e-3, 5
+# Largest angle between the ray and what is beside it, rad: the farther from the real axis, the more do waves grow
+# before they are absorbed, and the more elements these need; half of it doubles the number of exponentials.
+_WIDE = 0.15
+# Angle between points of one ray, rad.
+_ROUNDING = 1e-9
+# Frequencies over the highest one of the mesh at which exponentials for the resonances above it are fitted, but for
+# those that are as near to a resonance; frequencies and loss of these exponentials.
+_FITTED, _CLEAR = np.geomspace(1e-3, 1.0, 120), 0.01
+_FASTER, _LOSS = 1.0 + np.geomspace(0.03, 20.0, 12), 1e-3
 # Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.
 _LOWER, _HIGHER = 1e-3, 1e8
 
@@ -79,9 +91,7 @@ class WaterMemory:
     @property
     def by_memory(self) -> Complexes:
         """a + i b/ω by the memory at the frequencies of the check, shape (c, m, m)."""
-        limit = self.memory.infinite_frequency_added_mass
-        values: Complexes = limit + 1j * self.memory.transform(self.omega) / self.omega[:, None, None]
-        return values
+        return self.memory.hydrodynamic(self.omega)
 
     @property
     def causality_error(self) -> Floats:
@@ -136,12 +146,12 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
         unit = model.basin.units.frequency
         low, high = band.lowest / unit, band.highest / unit
         solver = OpenSolver(model, problem.watch)
-        causes: list[FrequencyErrors] = []
+        causes: dict[complex, FrequencyErrors] = {}
 
         def full(omega: complex) -> np.ndarray:
             radiated = solver.radiation(omega**2)
             added = model.pencil.products(model.pencil.loads.astype(complex), radiated)
-            causes.append(model.errors(radiated, np.abs(np.diag(added))))
+            causes[omega] = model.errors(radiated, np.abs(np.diag(added)))
             return added
 
         # Lower ones change K at later times only.
@@ -158,14 +168,11 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
 
         ray = _widest_ray(np.zeros(0), scaling)
         basis_error = swept_along(ray, axis)
-        resonances, _ = _resonances(solver, (low, high), _SEARCHED * scaling)
+        resonances = _settled_resonances(solver, (low, high), _SEARCHED * scaling)
         if len(resonances):
-            for omega in resonances:
-                # The solution beside it is nearly the resonance, and not all rounding.
-                solver.radiation((omega * _BESIDE) ** 2)
-            ray = _widest_ray(_resonances(solver, (low, high), _SEARCHED * scaling)[0], scaling)
+            ray = _widest_ray(resonances, scaling)
             basis_error = max(basis_error, swept_along(ray, np.zeros(0)))
-        resonances, residues = _resonances(solver, (low, high), ray.angle)
+        resonances, residues = _resonances(solver, (low, high), ray.angle, resonances)
         with problem.watch.stage("memory"):
             far = model.scale.unknown_masses(limit)
             fast = high_frequency_series(lambda omegas: solver.hydrodynamics(omegas**2), high * ray.turned, far)
@@ -189,13 +196,24 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
                 .reshape(-1, *limit.shape)
                 .astype(np.complex128),
             )
+            if len(resonances):
+                # Resonances of narrow water have no end: those faster than the waves of the mesh are on no ray.
+                beside = np.abs(_FITTED[:, None] * high / resonances.real - 1.0)
+                chosen = _FITTED[(_FITTED * high > axis[0]) & (beside > _CLEAR).all(axis=1)] * high
+                memory = memory.completed(
+                    chosen * unit,
+                    np.array([masses(one) for one in solver.hydrodynamics(chosen**2)]),
+                    band.highest * np.concatenate([1j * np.exp(1j * ray.angle) * _FASTER, (1j - _LOSS) * _FASTER]),
+                )
         found = _Found(
             memory=memory,
             model=model,
             omega=axis * unit,
             hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
         )
-        return Attempt(result=found, causes=joined_errors(causes, basis_error + limit_error), resolution=resolution)
+        # Those of rays that were left do not matter.
+        own = [cause for omega, cause in causes.items() if -np.angle(omega) < ray.angle + _ROUNDING]
+        return Attempt(result=found, causes=joined_errors(own, basis_error + limit_error), resolution=resolution)
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
@@ -209,25 +227,54 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     )
 
 
-def _resonances(solver: OpenSolver, band: tuple[float, float], angle: float) -> tuple[np.ndarray, np.ndarray]:
+def _settled_resonances(solver: OpenSolver, band: tuple[float, float], angle: float) -> np.ndarray:
+    """Extend the basis beside its resonances of the water until these stay where they are, and return them, see
+    `_resonances` (collective)."""
+    resonances = np.zeros(0, dtype=complex)
+    for _ in range(_ROUNDS):
+        found = _resonances(solver, band, angle)[0]
+        moved = found[~_is_among(found, resonances)]
+        resonances = found
+        if not len(moved):
+            break
+        for omega in moved:
+            # The solution beside it is nearly the resonance, and not all rounding.
+            solver.radiation((omega * _BESIDE) ** 2)
+    return _resonances(solver, band, angle, resonances)[0]
+
+
+def _resonances(
+    solver: OpenSolver, band: tuple[float, float], angle: float, known: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """ω of the water about fixed bodies within an angle from the real axis, dimensionless, shape (k,), and R of
-    H = Σ R/(ω² − ω'²) there, shape (k, m, m) (collective)."""
+    H = Σ R/(ω² − ω'²) there, shape (k, m, m), of those that a smaller basis knew, if they are given (collective)."""
     squares, residues = solver.water_resonances()
     omegas = np.sqrt(squares)
-    within = (-np.angle(omegas) < angle) & (omegas.imag < 0.0) & (np.abs(omegas) > band[0]) & (np.abs(omegas) < band[1])
-    omegas, residues = omegas[within], residues[within]
+    # Hardly damped ones may be above the real axis by the error of the mesh.
+    within = (-np.angle(omegas) < angle) & (np.angle(omegas) < _STILL)
+    within &= (np.abs(omegas) > band[0]) & (np.abs(omegas) < band[1])
+    omegas, residues = omegas[within].real - 1j * np.abs(omegas[within].imag), residues[within]
     sizes = np.abs(solver.hydrodynamics(np.abs(omegas) ** 2 * np.exp(-1j * angle))).max(axis=(1, 2), initial=0.0)
-    peaks = np.abs(residues).max(axis=(1, 2), initial=0.0) / np.abs((omegas**2).imag)
-    matters = peaks > _NO_PEAK * sizes
+    tiny = np.finfo(float).tiny
+    matters = np.abs(residues).max(axis=(1, 2), initial=0.0) > _NO_PEAK * sizes * np.abs((omegas**2).imag) + tiny
+    if known is not None:
+        matters &= _is_among(omegas, known)
     return omegas[matters], residues[matters]
+
+
+def _is_among(omegas: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Whether each of some resonances, shape (k,), is the same as a known one."""
+    same: np.ndarray = (np.abs(omegas[:, None] - known) < _STILL * np.abs(omegas[:, None])).any(axis=1)
+    return same
 
 
 def _widest_ray(resonances: np.ndarray, scaling: float) -> Ray:
     """Return the ray with most room between the real axis, resonances of the water, and its continuous spectrum of deep
-    water, arg ω = −α/2."""
+    water, arg ω = −α/2; of those with enough of it the nearest to the real axis."""
     stops = [0.0, *sorted(-np.angle(resonances)), 0.5 * scaling]
-    low, high = max(pairwise(stops), key=lambda gap: gap[1] - gap[0])
-    return Ray(angle=0.5 * float(low + high), gap=0.5 * float(high - low))
+    gaps = [(float(low), min(0.5 * float(high - low), _WIDE)) for low, high in pairwise(stops)]
+    low, gap = max(gaps, key=lambda found: found[1])
+    return Ray(angle=low + gap, gap=gap)
 
 
 def _with_long_waves(beyond: np.ndarray, p: np.ndarray, first: int) -> np.ndarray:

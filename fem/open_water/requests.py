@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
+from hydroelastic.physics.dofs import Dof
+
 if TYPE_CHECKING:
     # Spectra need SciPy, whose import is slow.
     from hydroelastic.physics.wave_spectrum import WaveSpectrum
@@ -18,11 +20,13 @@ class RadiationRequest:
     Attributes:
         omega: frequencies, rad/s; 0 for the limit of long waves, inf for the infinite-frequency limit.
         elastic_modes: number of elastic shapes of each beam that are reported.
+        fields_at: frequencies at which fields are written and drawn, rad/s; empty for those of the largest damping.
     """
 
     kind: ClassVar = "radiation"
     omega: tuple[float, ...]
     elastic_modes: int = 4
+    fields_at: tuple[float, ...] = ()
 
     @property
     def band(self) -> tuple[float, float] | None:
@@ -124,7 +128,7 @@ class RegularWave:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionRequest:
-    """Motions over time in waves that begin at t = 0, from rest.
+    """Motions over time in waves that begin at t = 0, from rest, or from a displacement of one float.
 
     Attributes:
         times: ascending, s.
@@ -132,6 +136,9 @@ class MotionRequest:
         waves_from: the side from which they come.
         ramp: time in which they grow to their height, s.
         elastic_modes: number of elastic shapes of each beam.
+        body: index of the float that is released at t = 0.
+        heave: its initial displacement upwards, m.
+        roll: its initial rotation, the roll of a section or the pitch of a solid, rad.
     """
 
     kind: ClassVar = "motion"
@@ -140,6 +147,33 @@ class MotionRequest:
     waves_from: Literal["left", "right"] = "left"
     ramp: float = 0.0
     elastic_modes: int = 4
+    body: int = 0
+    heave: float = 0.0
+    roll: float = 0.0
+
+    def initial(self, dofs: tuple[Dof, ...]) -> tuple[float, ...]:
+        """Return the displacement of each motion at t = 0, m or rad."""
+        return tuple(
+            {"heave": self.heave, "roll": self.roll, "pitch": self.roll}.get(dof.motion, 0.0)
+            if (dof.body or 1) - 1 == self.body
+            else 0.0
+            for dof in dofs
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class AirGapPoint:
+    """A point over the water, whose height above the moving surface is asked for.
+
+    Attributes:
+        at: (x, y) at rest, m.
+        across: its distance from the vertical plane of x and y, m; of solids of revolution alone.
+        body: index of the body with which it moves; ``None`` of a fixed point.
+    """
+
+    at: tuple[float, float]
+    across: float = 0.0
+    body: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,6 +189,7 @@ class SpectrumRequest:
         points: points of bodies at which motions are reported, (index of the body, (x, y) in m).
         positions: number of points along each beam.
         thickness: of beams, m, for their stresses 6M/h²; ``None`` for no stresses.
+        air_gaps: points whose height above the moving surface is reported.
     """
 
     kind: ClassVar = "spectrum"
@@ -166,6 +201,7 @@ class SpectrumRequest:
     points: tuple[tuple[int, tuple[float, float]], ...] = ()
     positions: int = 51
     thickness: float | None = None
+    air_gaps: tuple[AirGapPoint, ...] = ()
 
     @property
     def band(self) -> tuple[float, float]:

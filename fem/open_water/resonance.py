@@ -35,6 +35,8 @@ ANGLE = 1.3
 
 # A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
 _STILL = 1e-2
+# The same with a coarse mesh, of resonances that are counted but not found otherwise; finer ones tell.
+_NEARLY_STILL = 0.1
 # Lower limit of the region over the lowest expected frequency.
 _BELOW = 0.3
 ABOVE = 1.25
@@ -45,6 +47,8 @@ _PER_TARGET = 8
 _DRIFT = 0.1
 # Factors of the damping of smaller regions, for the count where a resonance lies on the boundary.
 _NARROWER = (0.93, 0.85)
+# Relative distance of a resonance from the largest damping of a region within which it lies on the boundary.
+_ON_BOUNDARY = 0.02
 # Dry modes above this multiple of the highest frequency deform quasi-statically, and are left out of initial values.
 _STIFF = 4.0
 # Least damping of the starts of the search for damped resonances over the largest damping of the other search.
@@ -108,8 +112,18 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
     region = _region(expected, request)
     coarse, known = rough_resonances(problem, expected, region)
     damped = None
+    solver: Solver
     if region.damping > MOST_DAMPING_ANYWHERE:
         damped, known = _damped_resonances(problem, coarse.resolution, region, known)
+        solver = damped
+    else:
+        solver = OpenSolver(coarse, watch)
+        with watch.stage("count"):
+            counted = zeros_in(solver, region.boundary)
+        if counted is not None and counted > len(known):
+            # Water that bodies hardly take part in has resonances far from all expected ones.
+            with watch.stage("resonances"):
+                known = sorted([*known, *_search(coarse, _spread(region), region, _NEARLY_STILL, known)], key=abs)
     values = known[: request.count]
     band, angle = Band(lowest=region.lowest, highest=region.highest), ANGLE
     if damped:
@@ -131,8 +145,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
     with watch.stage("count"):
-        solver = damped or OpenSolver(coarse, watch)
-        closed, counted = _counted(solver, _closed_region(region, found, request))
+        closed, counted = _counted(solver, _closed_region(region, found, request), known)
         if counted is not None and counted < sum(map(closed.holds, known)) and damped is None:
             # Poles of H count as less.
             counted += len(_resonances_of_the_water(coarse, closed))
@@ -169,10 +182,12 @@ def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
     return ResonanceSolution(table=table, model=None, error=0.0, known=0, unstable=False)
 
 
-def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
+def _counted(solver: Solver, region: Region, known: list[complex]) -> tuple[Region, int | None]:
     """Count in a region, or in a narrower one where a resonance lies on its boundary (collective)."""
     for damping in (1.0, *_NARROWER):
         narrower = replace(region, damping=damping * region.damping)
+        if any(abs(-omega.imag / omega.real / narrower.damping - 1.0) < _ON_BOUNDARY for omega in known):
+            continue
         counted = zeros_in(solver, narrower.boundary)
         if counted is not None:
             return narrower, counted
@@ -187,12 +202,20 @@ def _resonances_of_the_water(model: OpenModel, region: Region) -> list[complex]:
     unit = model.basin.units.frequency
     search = ResonanceSearch(model.pencil, np.zeros((0, 0)), np.zeros((0, 0)))
     found: list[complex] = []
-    for target in np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping):
-        for pair in search.near(model.squared_frequency(complex(target)), _PER_TARGET):
+    for target in _spread(region):
+        for pair in search.near(model.squared_frequency(target), _PER_TARGET):
             omega = complex(np.sqrt(pair.eigenvalue)) * unit
             known = any(abs(omega - other) <= _SAME_ROUGHLY * abs(omega) for other in found)
             if not known and pair.drift < _STILL and region.holds(omega):
                 found.append(omega)
+    return found
+
+
+def _spread(region: Region) -> list[complex]:
+    """Targets all over a region, rad/s."""
+    found: list[complex] = (
+        np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping)
+    ).tolist()
     return found
 
 
@@ -238,24 +261,35 @@ def rough_resonances(
     enough = sum(omega < _STIFF * region.highest for omega in expected) + 4
     resolution = replace(resolution, shapes=tuple(min(count, enough) for count in resolution.shapes))
     model = open_model(rough, band, resolution, angle=ANGLE)
-    targets = [omega for omega in expected if omega < region.highest] or [region.highest]
+    # Beside the real axis, where the continuous spectrum begins.
+    beside = [omega * (1.0 - 0.05j) for omega in expected if omega < region.highest]
+    targets = beside or [region.highest * (1.0 - 0.05j)]
     with problem.watch.stage("resonances"):
-        return model, _search(model, targets, region)
+        return model, sorted(_search(model, targets, region, _STILL, []), key=abs)
 
 
-def _search(model: OpenModel, targets: list[float], region: Region) -> list[complex]:
-    """ω of the resonances in a region in which bodies move, rad/s, by ascending |ω| (collective)."""
+def _search(
+    model: OpenModel, targets: list[complex], region: Region, still: float, others: list[complex]
+) -> list[complex]:
+    """ω of the resonances in a region in which bodies move, rad/s, but for some others (collective).
+
+    Args:
+        model: the problem.
+        targets: frequencies near which they are sought, rad/s.
+        region: the region.
+        still: largest |dλ/dα|/|λ|.
+        others: known ones, rad/s.
+    """
     unit = model.basin.units.frequency
     search = _outgoing_search(model)
     found: list[complex] = []
     for target in targets:
-        # Beside the real axis, where the continuous spectrum begins.
-        for pair in _nearest(search, model.squared_frequency(target * (1.0 - 0.05j))):
+        for pair in _nearest(search, model.squared_frequency(target)):
             omega = complex(np.sqrt(pair.eigenvalue)) * unit
-            known = any(abs(omega - other) <= _SAME * abs(omega) for other in found)
-            if not known and pair.drift < _STILL and pair.participation > _AT_REST and region.holds(omega):
+            known = any(abs(omega - other) <= _SAME * abs(omega) for other in [*others, *found])
+            if not known and pair.drift < still and pair.participation > _AT_REST and region.holds(omega):
                 found.append(omega)
-    return sorted(found, key=abs)
+    return found
 
 
 def _nearest(search: ResonanceSearch, target: complex) -> Iterator[Eigenpair]:

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import nan, pi
+from math import nan
 from typing import Any, Literal
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.beam_loads import AlongBeam, BeamLoads
 from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
-from hydroelastic.fem.open_water.outside import attachment_paths
+from hydroelastic.fem.open_water.omitted_modes import omitted_deflection, truncation
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
@@ -27,13 +29,13 @@ from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
+from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.physics.attachments import REGULAR
-from hydroelastic.physics.tank import Tank
 
 # Largest part of a motion by which its drawn curve may miss it.
 _DRAWN = 1e-3
-# Deflection of all omitted dry modes, per mode in use, over the last two amplitudes: at the tips they add like Σ n⁻⁵.
-_TAIL = 0.25
+# Points along a beam at which errors of loads are estimated, the ends included.
+_SECTIONS = 7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,10 +88,14 @@ def solve_response(
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
-            causes = [response_errors(swept.solutions[place]) for place in places]
+            estimated = [swept.solutions[place] for place in places]
+            causes = [response_errors(solution) for solution in estimated]
+            of_loads = {
+                index: between(omegas, places, values) for index, values in load_errors(solver.model, estimated).items()
+            }
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         joined = joined_errors(causes, float(swept.errors.max()))
-        table = _table(request, problem.tank, solver.model, omegas, swept.solutions, errors)
+        table = _table(request, solver.model, omegas, swept.solutions, errors, swept.errors, of_loads)
         units = solver.model.basin.units
         # Of a wave of unit elevation that is reflected in full, the drift force in deep water is ρg/2.
         drift = float(np.nan_to_num(table.drift_error).max(initial=0.0)) / (0.5 * units.density * units.gravity)
@@ -106,13 +112,13 @@ def solve_response(
     if request.hull_pressures:
         table = replace(table, **_on_hulls(request, found.swept.solutions, table.relative_error, like))
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_unresolved(problem.tank, request, found.solver, table))
+        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
         # Of several azimuthal orders each would have frequencies of its own.
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
         table = replace(
-            table, curve=_table(request, problem.tank, model, curves.omegas, curves.responses, curves.errors)
+            table, curve=_table(request, model, curves.omegas, curves.responses, curves.errors, curves.errors, {})
         )
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
@@ -140,15 +146,14 @@ def _on_hulls(
     return found
 
 
-def _unresolved(
-    tank: Tank, request: ResponseRequest, solver: OpenSolver, table: ResponseTable
-) -> tuple[UnresolvedPeak, ...]:
+def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
     incident = incident_places(solver.model, request.waves_from)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
-        return _table(request, tank, solver.model, omegas, solutions, np.full(len(omegas), nan))
+        unknown = np.full(len(omegas), nan)
+        return _table(request, solver.model, omegas, solutions, unknown, unknown, {})
 
     return unresolved_peaks(table, solver.resonances_between(), between)
 
@@ -171,65 +176,74 @@ def outcome(solution: OpenResponse) -> np.ndarray:
 
 
 def response_errors(solution: OpenResponse) -> FrequencyErrors:
-    """Return errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
-    and omitted dry modes over the largest deflection (collective)."""
-    model, powers = solution.model, solution.incidence.powers[solution.incident]
-    away, tips = model.energies_missed(solution.scattered)
+    """Return errors relative to the incident wave (collective).
+
+    Those of the waves that leave are the energy error of the scattered field over the power of the incident wave, and
+    the part of the scattered power that the ends of the absorbing layer reflect; those of motions, and of
+    deflections of a beam at both ends and in the middle, are `functional_errors`, relative to the largest motion if
+    that is larger than the elevation. The larger ones count. Beside them are omitted dry modes over the largest
+    deflection. About an axis motions have the errors of waves.
+    """
+    model, incidence = solution.model, solution.incidence
+    powers = incidence.powers[solution.incident]
+    away, tips = (0.5 * energy / powers for energy in solution.missed)
+    if incidence.directions == 1:
+        away += model.cut
+    else:
+        away += solution.reflected * solution.scattered_powers / powers
+        moved = _reported_motions(model)
+        sizes = np.maximum(np.abs(moved @ solution.motions.T).max(axis=0), incidence.elevations[solution.incident])
+        own = functional_errors(solution, dual_motions(solution, moved))
+        away, tips = (
+            np.maximum(waves, (motions / sizes).max(axis=0)) for waves, motions in zip((away, tips), own, strict=True)
+        )
     count = len(solution.incident)
     return FrequencyErrors(
-        liquid=0.5 * away / powers + boundary_error(model.pencil.liquid.tank, model.basin.tank) + model.cut,
-        tips=0.5 * tips / powers,
-        truncation=np.full(count, _truncation(solution)),
+        liquid=away + boundary_error(model.pencil.liquid.tank, model.basin.tank),
+        tips=tips,
+        truncation=np.full(count, truncation(solution)),
         rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),
     )
 
 
-def _truncation(solution: OpenResponse) -> float:
-    """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
-
-    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `PlateModes`.
-    """
-    model, no_drag = solution.model, np.zeros((len(solution.motions), len(solution.model.outside.drag)))
-    bent = (modes.of(solution, solution.motions, no_drag) for modes in model.plate_modes.values())
-    worst = max((float(one.omitted.max()) for one in bent), default=0.0)
-    for motions in solution.motions:
-        largest, first = float(np.abs(motions).max(initial=0.0)), 0
-        for index, body in enumerate(model.pencil.bodies):
-            own = np.abs(motions[first : first + body.size])
-            first += body.size
-            if largest and body.size and index in model.basin.tank.beams:
-                tail = _TAIL * body.size * float(own[-2:].max())
-                tail += _tail_of_attachments(motions, model, index, float(np.sqrt(solution.squared.real)))
-                worst = max(worst, tail / largest)
-    return worst
-
-
-def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:
-    """Deflection of a beam in the omitted dry modes by the forces F and moments C of springs and dampers at points.
-
-    Σ_{n>N} Wₙ (F Wₙ + C Wₙ′)/(EI κₙ⁴ l) with |Wₙ| ≤ √2 and κₙ = nπ/l is less than 2 (F l³/(3π⁴N³) + C l²/(2π³N²))/EI.
-    """
-    attachments, (tank, bodies) = model.attachments, (model.basin.tank, model.pencil.bodies)
-    beam, count, found = tank.beams[index], bodies[index].size, 0.0
-    for one, path in zip(attachments, attachment_paths(model.basin, bodies, attachments), strict=True):
-        if index in (one.body, one.other):
-            scaled = one.scaled(model.basin.units)
-            force, _, couple = np.abs((scaled.stiffness - 1j * omega * scaled.damping) @ path @ motions)
-            tail = force * beam.length**3 / (3.0 * pi**4 * count**3) + couple * beam.length**2 / (
-                2.0 * pi**3 * count**2
+def _reported_motions(model: OpenModel) -> np.ndarray:
+    """The motions of floats, and deflections of beams at both ends and in the middle, by a unit of each body unknown,
+    shape (motions, unknowns)."""
+    tank, bodies = model.basin.tank, model.pencil.bodies
+    return np.asarray(
+        block_diag(
+            *(
+                beam_shapes(tank.beams[index], body.size)
+                .tabulated(tank.beams[index].length * np.array([0.0, 0.5, 1.0]), 0)
+                .T
+                if index in tank.beams
+                else np.eye(body.size)
+                for index, body in enumerate(bodies)
             )
-            found += 2.0 * float(tail) / beam.flexural_rigidity
+        )
+    )
+
+
+def load_errors(model: OpenModel, solutions: list[OpenResponse]) -> dict[int, np.ndarray]:
+    """Return errors of deflection, shear force and bending moment anywhere along each beam, per c of each incident wave
+    and in units of the basin, shape (n, 3, incident), by the number of the body (collective)."""
+    found = {}
+    for index, beam in model.basin.tank.beams.items():
+        along = BeamLoads(model, index, np.linspace(0.0, beam.length, _SECTIONS))
+        found[index] = np.array([along.errors(one, omitted_deflection(one, index)) for one in solutions])
     return found
 
 
 def _table(
     request: ResponseRequest,
-    tank: Tank,
     model: OpenModel,
     omegas: np.ndarray,
     solutions: list[OpenResponse],
     errors: np.ndarray,
+    reduced: np.ndarray,
+    of_loads: dict[int, np.ndarray],
 ) -> ResponseTable:
+    """Return the table, with all errors of motions, those by the reduced basis alone, and `load_errors` of the mesh."""
     first = solutions[0]
     count = len(first.incident)
     waves = np.array([solution.ratios() for solution in solutions])
@@ -254,7 +268,7 @@ def _table(
         drift_error=drift_errors(solutions, errors),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
-        plates=tuple(_plates(request, model, solutions, errors)),
+        plates=tuple(_plates(request, model, solutions, reduced, of_loads)),
         round_plates=tuple(
             deflections_of_order(
                 model,
@@ -262,7 +276,7 @@ def _table(
                 _moved(request, model, solutions),
                 towards,
                 errors,
-                lambda index: radii_along(tank, index, request.positions),
+                lambda index: model.basin.units.length * radii_along(model.basin.tank, index, request.positions),
             )
         ),
         fields_at=request.fields_at,
@@ -304,14 +318,19 @@ def _moved(
 
 
 def _plates(
-    request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse], errors: np.ndarray
+    request: ResponseRequest,
+    model: OpenModel,
+    solutions: list[OpenResponse],
+    reduced: np.ndarray,
+    of_loads: dict[int, np.ndarray],
 ) -> Iterator[PlateDeflection]:
     for index, beam in model.basin.tank.beams.items():
         x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
         along = BeamLoads(model, index, x)
         moved = zip(solutions, _moved(request, model, solutions), strict=True)
         found = [along.of(one, *own) for one, own in moved]
-        yield plate_deflection(model, index, x, solutions, found, errors)
+        meshed = of_loads.get(index, np.zeros((len(solutions), 3, len(solutions[0].incident))))
+        yield plate_deflection(model, index, x, solutions, found, reduced, meshed)
 
 
 def plate_deflection(
@@ -320,7 +339,8 @@ def plate_deflection(
     x: np.ndarray,
     solutions: list[OpenResponse],
     found: list[AlongBeam],
-    errors: np.ndarray,
+    reduced: np.ndarray,
+    of_loads: np.ndarray,
 ) -> PlateDeflection:
     """Return what acts along a beam in SI units, with its errors.
 
@@ -330,23 +350,22 @@ def plate_deflection(
         x: distances from its left end, in units of the basin, shape (p,).
         solutions: the responses.
         found: what acts along it in these.
-        errors: their relative errors, shape (n,).
+        reduced: their relative errors by the reduced basis, shape (n,).
+        of_loads: see `load_errors`.
     """
     units, start = model.basin.units, model.basin.tank.piece_of(index).start
     factors = np.array([one.per_elevation(RIGHTWARD) for one in solutions])
     weight = units.density * units.gravity * units.length
-    uneven = np.array([one.uneven for one in found]) * np.abs(factors)[:, None] * errors[:, None, None]
-    deflection, moment, shear = (
-        unit * np.array([getattr(one, name) for one in found]) * factors[..., None]
-        for name, unit in (("deflection", 1.0), ("bending_moment", weight * units.length), ("shear_force", weight))
-    )
+    values, errors = {}, {}
+    scales = {"deflection": 1.0, "shear_force": weight, "bending_moment": weight * units.length}
+    for place, (name, unit) in enumerate(scales.items()):
+        values[name] = unit * np.array([getattr(one, name) for one in found]) * factors[..., None]
+        errors[f"{name}_error"] = unit * of_loads[:, place] * np.abs(factors) + reduced[:, None] * np.abs(
+            values[name]
+        ).max(axis=2)
     return PlateDeflection(
         body=index,
         positions=model.basin.origin + units.length * (start + x),
-        deflection=deflection,
-        bending_moment=moment,
-        shear_force=shear,
-        deflection_error=errors[:, None] * np.abs(deflection).max(axis=2),
-        bending_moment_error=weight * units.length * uneven[:, 1],
-        shear_force_error=weight * uneven[:, 0],
+        **values,
+        **errors,
     )

@@ -46,6 +46,7 @@ class RadiationTable:
         stiffness: (m, m) of the bodies and hydrostatics, N/m², N/m, N.
         infinite_frequency_added_mass: (m, m), the limit of infinite frequency, if it was requested.
         factorizations: number of factorizations.
+        fields_at: frequencies at which fields are wanted, rad/s; empty for those of the largest damping.
     """
 
     omega: Floats
@@ -64,6 +65,7 @@ class RadiationTable:
     stiffness: Floats
     infinite_frequency_added_mass: Floats | None
     factorizations: int
+    fields_at: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -269,125 +271,3 @@ class DecayTable:
     tail: float | None
     certified_until: float
     tail_power: int = 2
-
-
-@dataclass(frozen=True, kw_only=True)
-class IrregularResponse:
-    """Statistics of one response to irregular waves; amplitudes have its unit.
-
-    Attributes:
-        quantity: which.
-        unit: m, rad or m/s², of moments N, of strain 1.
-        significant_amplitude: mean of the highest third of the amplitudes.
-        largest_amplitude: most probable largest amplitude in the duration.
-        zero_crossing_period: s.
-        relative_error: estimated relative error of the significant amplitude by all causes.
-        sampling_error: by the sampling of the transfer function.
-        truncation_error: by waves beyond the frequencies.
-        transfer_error: by the errors of the transfer function.
-    """
-
-    quantity: str
-    unit: str
-    significant_amplitude: float
-    largest_amplitude: float
-    zero_crossing_period: float
-    relative_error: float
-    sampling_error: float
-    truncation_error: float
-    transfer_error: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlateStatistics:
-    """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width.
-
-    Each is of shape (p,).
-
-    Attributes:
-        body: its index among the bodies.
-        positions: abscissas, m.
-        significant_deflection: m.
-        significant_bending_moment: N.
-        largest_bending_moment: most probable largest in the duration, N.
-        significant_shear_force: N/m.
-        largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
-        relative_errors: estimated errors of the significant "deflection", "bending_moment" and "shear_force" anywhere,
-            relative to the largest along the beam.
-        sampling_error: the largest part of these by the sampling of transfer functions.
-        truncation_error: by waves beyond the frequencies.
-        transfer_error: by the errors of the transfer functions.
-    """
-
-    body: int
-    positions: Floats
-    significant_deflection: Floats
-    significant_bending_moment: Floats
-    largest_bending_moment: Floats
-    significant_shear_force: Floats
-    largest_stress: Floats | None
-    relative_errors: dict[str, float]
-    sampling_error: float
-    truncation_error: float
-    transfer_error: float
-
-    @property
-    def relative_error(self) -> float:
-        """The largest of `relative_errors`."""
-        return max(self.relative_errors.values())
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpectrumTable:
-    """Responses to irregular waves. Shapes: n frequencies, q quantities, m motions.
-
-    Attributes:
-        waves: description of the waves.
-        waves_from: the side from which they come.
-        significant_height: Hs, m.
-        duration: of the sea state, s.
-        omega: (n,) frequencies chosen by the solver, rad/s.
-        density: (n,) spectrum of the waves, m² s/rad.
-        quantities: q names.
-        transfer: (n, q) responses per unit elevation.
-        response_density: (n, q) spectra of the responses.
-        relative_error: (n,) estimated relative error of the transfer functions.
-        responses: statistics of each quantity.
-        dofs: m degrees of freedom.
-        mean_drift_force: mean force on the bodies along x, N/m; NaN about an axis in waves on two levels.
-        mean_drift_error: its estimated error, N/m.
-        mean_absorbed_power: mean power that linear damping from outside takes, W/m.
-        equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
-        plates: one for each beam and round plate.
-    """
-
-    waves: str
-    waves_from: Literal["left", "right"]
-    significant_height: float
-    duration: float
-    omega: Floats
-    density: Floats
-    quantities: tuple[str, ...]
-    transfer: Complexes
-    response_density: Floats
-    relative_error: Floats
-    responses: tuple[IrregularResponse, ...]
-    dofs: tuple[Dof, ...]
-    mean_drift_force: float
-    mean_drift_error: float
-    mean_absorbed_power: float
-    equivalent_damping: Floats
-    plates: tuple[PlateStatistics, ...]
-
-    def largest_error(self, cause: str) -> float:
-        """Return the largest error of a significant amplitude or load by a cause, an attribute of `IrregularResponse`,
-        relative to the largest in the same unit, or along the beam: a point may move little by symmetry."""
-        largest: dict[str, float] = {}
-        for one in self.responses:
-            largest[one.unit] = max(largest.get(one.unit, 0.0), one.significant_amplitude)
-        of_motions = (
-            getattr(one, cause) * one.significant_amplitude / largest[one.unit]
-            for one in self.responses
-            if largest[one.unit]
-        )
-        return max((*of_motions, *(getattr(plate, cause) for plate in self.plates)), default=0.0)

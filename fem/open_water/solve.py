@@ -13,6 +13,7 @@ from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
+from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
@@ -34,7 +35,6 @@ from hydroelastic.fem.open_water.results import (
     RadiationTable,
     ResonanceTable,
     ResponseTable,
-    SpectrumTable,
 )
 from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
 from hydroelastic.fem.stopwatch import Report

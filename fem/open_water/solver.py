@@ -53,6 +53,7 @@ class OpenSolver:
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
+        self._sampled = np.zeros((0, self._loads.shape[1]))
         self._known = self._reduced.load_products(self._loads)
         # A sweep evaluates a frequency several times, and so do several analyses.
         self._waves: dict[float, Incidence] = {}
@@ -67,6 +68,15 @@ class OpenSolver:
     def basis_size(self) -> int:
         """Number of vectors of the reduced basis."""
         return self._reduced.size
+
+    def sample(self, rows: np.ndarray) -> None:
+        """Let ψ on the basis be as accurate as forces are at some places, by the dual problem of each.
+
+        Args:
+            rows: what ψ there takes of the own free unknowns, shape (places, own free unknowns).
+        """
+        self._sampled = rows
+        self._solutions.clear()
 
     def incidence(self, omega: float) -> Incidence:
         """Return the travelling waves at ω in rad/s (collective)."""
@@ -136,9 +146,12 @@ class OpenSolver:
             with self._watch.stage("solve"):
                 self._direct.shift(squared)
                 found = self._solved(self._loads), self._solved(-waves.fluxes)
-            if not self.model.basin.tank.elastic:
-                with self._watch.stage("reduce"):
+                dual = self._solved(self._sampled.astype(complex))
+            with self._watch.stage("reduce"):
+                if not self.model.basin.tank.elastic:
                     self._reduced.add(squared, np.vstack(found), np.vstack([self._loads, -waves.fluxes]))
+                if len(dual):
+                    self._reduced.add(squared, dual, self._sampled)
             self._solutions[omega] = found
         return self._solutions[omega]
 
@@ -191,7 +204,7 @@ class OpenSolver:
             incidence=waves,
             incident=incident,
             fluxes=products(waves.fluxes, scattered[incident]),
-            potentials=lambda moved: diffracted[incident] + moved @ radiated,
+            potentials=lambda parts, moved: parts @ diffracted[incident] + moved @ radiated,
             motions=motions[incident],
             absorbed=absorbed[incident],
             equations=equations,
@@ -227,7 +240,7 @@ class OpenSolver:
             incidence=waves,
             incident=incident,
             fluxes=fluxes @ coordinates.T,
-            potentials=lambda moved: lift(diffracted[incident] + moved @ radiated),
+            potentials=lambda parts, moved: lift(parts @ diffracted[incident] + moved @ radiated),
             motions=motions,
             absorbed=absorbed,
             equations=equations,

@@ -7,9 +7,10 @@ it, with the equations of motion at these frequencies; see `physics/attachments.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import reduce
-from math import nan
+from functools import cache, reduce
+from itertools import count
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -17,15 +18,18 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import Curves, certified_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
+from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
-from hydroelastic.fem.open_water.results import IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
+from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
 from hydroelastic.fem.open_water.spectrum_rows import (
+    air_gaps_of_plates,
     along_plates,
     motion_errors,
     order_of_motions,
@@ -33,12 +37,17 @@ from hydroelastic.fem.open_water.spectrum_rows import (
     response_rows,
     statistics_along,
 )
+from hydroelastic.fem.open_water.surface_elevation import (
+    incident_elevations,
+    reach_of,
+    sampled_elevations,
+    scattered_elevations,
+    surface_rows,
+)
 from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.modal.liquid.travelling_waves import travelling_waves
-from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import IRREGULAR
 from hydroelastic.physics.irregular_waves import moments, statistics
 
@@ -46,12 +55,13 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 _FIRST = 33
 # Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
-# Frequencies over the last one, above which the drift force tells how it may change beyond.
+# Frequencies over the last one, of which the largest elevation is taken for that beyond.
 _LAST = 0.7
 # How often all intervals between frequencies are halved for the sake of the moments.
 _HALVINGS = 3
-# Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
-_DRIFT = 1e-4
+# Least tolerance of waves of orders in which nothing moves, and part of the tolerance that the last of them may
+# contribute to an elevation.
+_FIXED, _LEFT_OUT = 1e-4, 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,16 +121,28 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
     """Transfer functions of one order over the band of the spectrum (collective)."""
     lowest, highest = request.band
     low, high = problem.shared_band(lowest, highest)
-    band = Band(lowest=low, highest=high)
+    band = Band(lowest=low, highest=high, reach=reach_of(problem.tank, request.air_gaps))
 
     def solve(resolution: Resolution) -> Attempt[Curves]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = 0.0, np.zeros_like(solver.model.mass)
         incident = incident_places(solver.model, request.waves_from)[:1]
+        rows = surface_rows(solver.model, request.air_gaps)
+        if len(rows):
+            solver.sample(rows[: len(request.air_gaps)])
+
+        def difference(one: OpenResponse, other: OpenResponse) -> float:
+            apart = relative_difference(outcome(one), outcome(other))
+            if not len(rows):
+                return apart
+            motions = [each.motions[0] * each.per_elevation(RIGHTWARD)[0] for each in (one, other)]
+            water = [sampled_elevations(*each, rows, RIGHTWARD) for each in zip((one, other), motions, strict=True)]
+            return max(apart, float(np.abs(water[0] - water[1]).max()))
+
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
-            difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
+            difference=difference,
         )
         omegas = np.geomspace(lowest, highest, _FIRST)
         for _ in range(_HALVINGS + 1):
@@ -132,7 +154,7 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             joined = joined_errors(causes, float(curves.errors.max()))
             # About a resonance they change by orders of magnitude.
             errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
-            curves = replace(curves, errors=errors)
+            curves = replace(curves, errors=errors, reduced=curves.errors)
             if problem.tank.geometry.is_revolved:
                 return Attempt(result=curves, causes=joined, resolution=resolution)
             table = _table(problem, request, [curves])
@@ -165,23 +187,49 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
     errors = np.max([one.errors for one in curves], axis=0)
-    plates = list(along_plates(problem.tank, request, curves, motions, drag))
     rows = response_rows(models, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
     deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
+    plates = list(along_plates(problem.tank, request, curves, _estimated(curves[0]), motions, drag))
+    further, gaps = _further_orders(problem, request, omegas), slice(len(rows) - len(request.air_gaps), len(rows))
+    if request.air_gaps:
+        for water, uncertain in (
+            _elevations(problem, request, curves, motions, further),
+            air_gaps_of_plates(problem.tank, request, plates),
+        ):
+            transfer[:, gaps] += water
+            deviations[:, gaps] += uncertain
     names = [(row.name, row.unit) for row in rows]
-    for quantity, its_unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
-        names.append((quantity, its_unit))
+    for quantity, unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
+        names.append((quantity, unit))
         transfer, deviations = np.column_stack([transfer, values]), np.column_stack([deviations, off])
-    told = statistics(request.spectrum, omegas, transfer, deviations, request.duration)
+    beyond = np.abs(transfer[[0, -1]])
+    # Waves that come and are reflected may cancel at the last frequency.
+    beyond[1, gaps] = np.abs(transfer[omegas >= _LAST * omegas[-1], gaps]).max(axis=0)
+    told = statistics(request.spectrum, omegas, transfer, deviations, request.duration, beyond)
     density = request.spectrum.density(omegas)
     order, dofs = order_of_motions(models)
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
-    unit = units.density * units.gravity * units.volume * units.length / units.frequency
-    drift, drift_error = _mean_drift(problem, request, curves, motions)
+    damping_unit = units.density * units.gravity * units.volume * units.length / units.frequency
+    drift, drift_error = mean_drift(problem, request, curves, motions, further)
+    responses = tuple(
+        IrregularResponse(
+            quantity=name,
+            unit=unit,
+            significant_amplitude=float(told.significant_amplitude[place]),
+            largest_amplitude=float(told.largest_amplitude[place]),
+            zero_crossing_period=float(told.zero_crossing_period[place]),
+            relative_error=float(told.relative_error[place]),
+            sampling_error=float(told.sampling_error[place]),
+            truncation_error=float(told.truncation_error[place]),
+            transfer_error=float(told.transfer_error[place]),
+        )
+        for place, (name, unit) in enumerate(names)
+    )
+    level = problem.tank.levels_from_top[0].height
     return SpectrumTable(
         waves=request.words,
         waves_from=request.waves_from,
@@ -193,32 +241,68 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         transfer=transfer,
         response_density=np.abs(transfer) ** 2 * density[:, None],
         relative_error=errors,
-        responses=tuple(
-            IrregularResponse(
-                quantity=name,
-                unit=unit,
-                significant_amplitude=float(told.significant_amplitude[place]),
-                largest_amplitude=float(told.largest_amplitude[place]),
-                zero_crossing_period=float(told.zero_crossing_period[place]),
-                relative_error=float(told.relative_error[place]),
-                sampling_error=float(told.sampling_error[place]),
-                truncation_error=float(told.truncation_error[place]),
-                transfer_error=float(told.transfer_error[place]),
-            )
-            for place, (name, unit) in enumerate(names)
-        ),
+        responses=responses,
         dofs=dofs,
         mean_drift_force=drift,
         mean_drift_error=drift_error,
-        mean_absorbed_power=_mean_power(request, curves, motions),
-        equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
+        mean_absorbed_power=mean_power(request, curves, motions),
+        equivalent_damping=(back.T @ damping @ back * damping_unit)[np.ix_(order, order)],
         plates=tuple(
             statistics_along(
                 request, omegas, plate, getattr(problem.tank.bodies[plate.body], "thickness", request.thickness)
             )
             for plate in plates
         ),
+        air_gaps=tuple(
+            AirGap(point=gap, still_air_gap=gap.at[1] - level, relative_elevation=one)
+            for gap, one in zip(request.air_gaps, responses[gaps], strict=True)
+        ),
     )
+
+
+def _further_orders(problem: OpenWaterProblem, request: SpectrumRequest, omegas: np.ndarray) -> Callable[[int], Curves]:
+    """Return what gives the waves of an order in which nothing moves, at the same frequencies (collective)."""
+    # No other analysis asks for these orders.
+    fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _FIXED))
+
+    @cache
+    def curves(order: int) -> Curves:
+        own = _curves(fixed.of_order(order), request).result.at(omegas)
+        chosen = np.searchsorted(own.omegas, omegas)
+        return replace(
+            own, omegas=omegas, responses=[own.responses[place] for place in chosen], errors=own.errors[chosen]
+        )
+
+    return curves
+
+
+def _elevations(
+    problem: OpenWaterProblem,
+    request: SpectrumRequest,
+    curves: list[Curves],
+    motions: np.ndarray,
+    further: Callable[[int], Curves],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Elevation of the water at the points of air gaps per unit incident elevation, and its error, each of shape
+    (n, points) (collective).
+
+    About an axis orders are added until one contributes less than a part of the tolerance to the spectra.
+    """
+    stops = np.cumsum([len(one.solver.model.mass) for one in curves])[:-1]
+    moved = {own.order: (own, part) for own, part in zip(curves, np.split(motions, stops, axis=1), strict=True)}
+    total, uncertain = incident_elevations(curves[0], request)
+    density = request.spectrum.density(curves[0].omegas)[:, None]
+    weight = _LEFT_OUT**2 * problem.tolerance**2 * density.max()
+    for order in count():
+        own, motion = moved.get(order) or (further(order), np.zeros((len(density), 0)))
+        waves, errors = scattered_elevations(own, motion, request, order)
+        total, uncertain = total + waves, uncertain + errors
+        if not problem.tank.geometry.is_revolved:
+            return total, uncertain
+        # Beside a hull the orders fall like powers of the distance from the axis.
+        if order >= max(moved) and (np.abs(waves) ** 2 * density).max() <= weight:
+            return total, uncertain + np.abs(waves)
+    raise AssertionError
 
 
 def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -254,113 +338,3 @@ def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarr
 
     damping = whole.equivalent_damping(speeds, IRREGULAR) if len(whole.drag) else np.zeros_like(whole.damping)
     return damping, IRREGULAR * whole.drag * speeds(damping), moved(damping)
-
-
-def _mean_drift(
-    problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray
-) -> tuple[float, float]:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
-
-    Args:
-        problem: the open water.
-        request: the request.
-        curves: the transfer functions of the orders that move.
-        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
-    """
-    omegas, towards = curves[0].omegas, direction_of(request.waves_from)
-    starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
-    # Motions per c of the incident wave.
-    parts = [
-        [
-            row[None] / one.per_elevation(towards)[0]
-            for row, one in zip(motions[:, first:last], own.responses, strict=True)
-        ]
-        for own, first, last in zip(curves, starts, starts[1:], strict=False)
-    ]
-    if problem.tank.geometry.is_revolved:
-        if len(curves[0].responses[0].incidence.planes) > 1:
-            return nan, nan
-        known = {
-            own.order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
-            for own, each in zip(curves, parts, strict=True)
-        }
-        forces, errors = _drift_of_orders(
-            problem,
-            request,
-            omegas,
-            known,
-            {own.order: own.errors for own in curves},
-        )
-    else:
-        units = curves[0].solver.model.basin.units
-        forces, errors = (
-            units.density
-            * units.gravity
-            * np.array(
-                [
-                    np.hstack([one.drift_force(part), one.drift_error(float(error), part)])
-                    * abs(one.per_elevation(towards)[0]) ** 2
-                    for one, part, error in zip(curves[0].responses, parts[0], curves[0].errors, strict=True)
-                ]
-            ).T
-        )
-    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
-    roots = np.sqrt(np.abs(forces))[:, None]
-    deviations = np.sqrt(roots**2 + errors[:, None]) - roots
-    told = statistics(request.spectrum, omegas, roots, deviations, request.duration)
-    # Short waves are reflected: the force beyond is as at the end, and changes no more than up to there.
-    tail, last = 2.0 * request.spectrum.tail(omegas[-1], 0), np.abs(forces[omegas >= _LAST * omegas[-1]])
-    within = 2.0 * float(told.moments[0, 0])
-    # Of an amplitude, the relative error is half of that of its square.
-    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + tail * float(np.ptp(last))
-    return towards * (within + tail * float(last[-1])), error
-
-
-def _drift_of_orders(
-    problem: OpenWaterProblem,
-    request: SpectrumRequest,
-    omegas: np.ndarray,
-    known: dict[int, np.ndarray],
-    certain: dict[int, np.ndarray],
-) -> tuple[np.ndarray, np.ndarray]:
-    """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
-    (collective).
-
-    Orders are added until one scatters no more of the spectrum than `_DRIFT`.
-    """
-    waves: list[np.ndarray] = []
-    errors: list[np.ndarray] = []
-    density = request.spectrum.density(omegas)
-    # Nothing moves in the others, and no other analysis asks for them.
-    fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _DRIFT))
-    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
-        order = len(waves)
-        if order in known:
-            waves.append(known[order][:, 0])
-            errors.append(certain[order])
-            continue
-        own = _curves(fixed.of_order(order), request).result.at(omegas)
-        chosen = np.searchsorted(own.omegas, omegas)
-        waves.append(np.array([own.responses[place].partial_waves()[0, 0] for place in chosen]))
-        errors.append(own.errors[chosen])
-    layers = two_layers(problem.tank)
-    wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
-    found, uncertain = np.array(waves).T, np.array(errors).T
-    return drift_of_orders(problem.tank, omegas, wavenumbers, found, uncertain, np.zeros_like(uncertain))
-
-
-def _mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:
-    """Mean power that the linear damping of attachments takes, ∫ ω² aᴴBa S dω, W/m or of solids W.
-
-    Args:
-        request: the request.
-        curves: the transfer functions of the orders that move.
-        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
-    """
-    models, omegas = [one.solver.model for one in curves], curves[0].omegas
-    damping = block_diag(*(model.outside.damping for model in models))
-    units = models[0].basin.units
-    values, vectors = np.linalg.eigh(damping)
-    speeds = omegas[:, None] * (motions @ vectors)
-    taken = float(moments(request.spectrum, omegas, speeds, (0,))[0] @ np.maximum(values, 0.0))
-    return units.density * units.gravity * units.volume / units.length / units.frequency * taken

@@ -6,16 +6,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import interp1d
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.beam_loads import BeamLoads
 from hydroelastic.fem.open_water.curves import Curves
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.incident_waves import direction_of
+from hydroelastic.fem.open_water.irregular_results import PlateStatistics
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import plate_deflection
-from hydroelastic.fem.open_water.results import Floats, PlateDeflection, PlateStatistics
+from hydroelastic.fem.open_water.response import load_errors, plate_deflection
+from hydroelastic.fem.open_water.results import Floats, PlateDeflection
 from hydroelastic.fem.open_water.round_plates import along_diameter, deflections_of_order, joined, radii_along
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import statistics
@@ -46,7 +48,8 @@ def order_of_motions(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...
 
 
 def response_rows(models: list[OpenModel], request: SpectrumRequest) -> list[Row]:
-    """Motions of rigid bodies and round plates, and motions and accelerations of points of other bodies."""
+    """Motions of rigid bodies and round plates, motions and accelerations of points of other bodies, and last what air
+    gaps move towards the water, but for those that move with round plates."""
     tank, length = models[0].basin.tank, models[0].basin.units.length
     motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
     order, dofs = order_of_motions(models)
@@ -63,6 +66,12 @@ def response_rows(models: list[OpenModel], request: SpectrumRequest) -> list[Row
         if index not in tank.elastic:
             rows.append(Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
         rows.append(Row(name=f"point {number} acceleration up", unit="m/s²", direction=moved[0], is_acceleration=True))
+    for number, gap in enumerate(request.air_gaps, 1):
+        up = np.zeros(motions.shape[1], dtype=complex)
+        if gap.body is not None and gap.body not in models[0].plate_modes:
+            up = np.hstack([_moved(model, gap.body, gap.at)[0] for model in models])
+        # The elevation of the water is no motion of a body, and joins this part later.
+        rows.append(Row(name=f"relative elevation {number}", unit="m", direction=-up))
     return rows
 
 
@@ -84,7 +93,7 @@ def motion_errors(models: list[OpenModel], errors: np.ndarray, motions: np.ndarr
 
 
 def along_plates(
-    tank: Tank, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray, drag: np.ndarray
+    tank: Tank, request: SpectrumRequest, curves: list[Curves], places: list[int], motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateDeflection]:
     """Yield what acts along each beam, and along the diameter of each round plate, its points among the positions.
 
@@ -92,12 +101,17 @@ def along_plates(
         tank: the open water in SI units.
         request: the request.
         curves: the transfer functions of the orders that move.
+        places: indices of frequencies at which errors of beams by the mesh are estimated.
         motions: of all orders per elevation, shape (n, unknowns).
         drag: linear damping in place of each drag.
     """
 
     def radii(index: int) -> Floats:
-        points = [abs(point[0]) for body, point in request.points if body == index]
+        points = [
+            abs(at[0])
+            for body, at in (*request.points, *((gap.body, gap.at) for gap in request.air_gaps))
+            if body == index
+        ]
         return np.union1d(radii_along(tank, index, request.positions), points)
 
     towards, parts = direction_of(request.waves_from), []
@@ -108,11 +122,15 @@ def along_plates(
             for response, motion in zip(one.responses, part, strict=True)
         ]
         model = one.solver.model
+        known = load_errors(model, [one.responses[place] for place in places])
         for index, beam in model.basin.tank.beams.items():
             x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
             along = BeamLoads(model, index, x)
             found = [along.of(response, *own) for response, own in zip(one.responses, moved, strict=True)]
-            yield plate_deflection(model, index, x, one.responses, found, one.errors)
+            logarithms = np.log(np.maximum(known[index], np.finfo(float).tiny))
+            # As those of the motions, about a resonance they change by orders of magnitude.
+            meshed = np.exp(interp1d(one.omegas[places], logarithms, axis=0)(one.omegas))
+            yield plate_deflection(model, index, x, one.responses, found, one.reduced, meshed)
         parts.append(deflections_of_order(model, one.responses, moved, towards, one.errors, radii))
     errors = np.max([one.errors for one in curves], axis=0)
     for plates in zip(*parts, strict=True):
@@ -129,8 +147,7 @@ def points_of_plates(
         body = tank.bodies[index]
         if not isinstance(body, RoundPlate):
             continue
-        plate = along[index]
-        place = int(np.argmin(np.abs(plate.positions - point[0])))
+        plate, place = along[index], _place(along[index], point)
         deflection, error = plate.deflection[:, 0, place], plate.deflection_error[:, 0]
         yield f"point {number} up", "m", deflection, error
         yield f"point {number} acceleration up", "m/s²", -(omegas**2) * deflection, omegas**2 * error
@@ -140,6 +157,27 @@ def points_of_plates(
             if plate.strain is not None and body.thickness is not None:
                 strained = 0.5 * body.thickness / body.flexural_rigidity
                 yield f"point {number} strain", "1", plate.strain[:, 0, place], strained * moment_error
+
+
+def air_gaps_of_plates(
+    tank: Tank, request: SpectrumRequest, plates: list[PlateDeflection]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what points of air gaps that move with round plates move towards the water per unit incident elevation,
+    and its error, each of shape (n, points)."""
+    along = {plate.body: plate for plate in plates if isinstance(tank.bodies[plate.body], RoundPlate)}
+    still = np.zeros(len(plates[0].deflection)) if plates else 0.0
+    moved = [
+        (-plate.deflection[:, 0, _place(plate, gap.at)], plate.deflection_error[:, 0])
+        if (plate := along.get(-1 if gap.body is None else gap.body))
+        else (still, still)
+        for gap in request.air_gaps
+    ]
+    towards, errors = (np.stack(parts, axis=-1) for parts in zip(*moved, strict=True))
+    return towards, errors
+
+
+def _place(plate: PlateDeflection, point: tuple[float, float]) -> int:
+    return int(np.argmin(np.abs(plate.positions - point[0])))
 
 
 def statistics_along(

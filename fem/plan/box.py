@@ -15,7 +15,8 @@ from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads,
 from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution, expected_eigenvalue
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
-from hydroelastic.fem.plan.released import released_box_pencil
+from hydroelastic.fem.plan.released import ReleasedProblem
+from hydroelastic.fem.plan.released_box import released_box
 from hydroelastic.fem.plan.truncation import finer_count, rectangle_energies
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
@@ -46,9 +47,9 @@ class BoxModel:
         """See `ClassModel.problem`."""
         return box_problem(self.tank, resolution, parity)
 
-    def released(self, resolution: BoxResolution, parity: ClassParity) -> CoupledPencil[BoxLiquid]:
+    def released(self, resolution: BoxResolution, parity: ClassParity) -> ReleasedProblem:
         """See `ClassModel.released`."""
-        return released_box_pencil(_liquid(self.tank, resolution, parity), _bodies(self.tank, resolution, parity))
+        return released_box(_liquid(self.tank, resolution, parity), _bodies(self.tank, resolution, parity))
 
     def errors(
         self, resolution: BoxResolution, one: SymmetryClass, plates: tuple[RectangleBody, ...], modes: list[Mode]

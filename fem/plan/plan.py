@@ -28,7 +28,8 @@ from hydroelastic.fem.plan.plan_pencil import (
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
-from hydroelastic.fem.plan.released_plan import released_plan_pencil
+from hydroelastic.fem.plan.released import ReleasedProblem
+from hydroelastic.fem.plan.released_plan import released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
@@ -131,15 +132,16 @@ class PlanModel:
     ) -> tuple[CoupledPencil[PlanLiquid] | None, tuple[PlanPlate, ...]]:
         """See `ClassModel.problem`."""
         parts, plates = self.parts(resolution), self.parts(resolution).plates(parity)
-        waves = self.tank.top == "free"
-        return plan_pencil(parts.space_of(parity), parts.poles, plates, waves=waves, comm=self.comm), plates
+        waves, comm = self.tank.top == "free", None if self.tank.top == "pressure_release" else self.comm
+        return plan_pencil(parts.space_of(parity), parts.poles, plates, waves=waves, comm=comm), plates
 
-    def released(self, resolution: PlanResolution, parity: ClassParity) -> CoupledPencil[PlanLiquid]:
+    def released(self, resolution: PlanResolution, parity: ClassParity) -> ReleasedProblem:
         """See `ClassModel.released`."""
         # ψ ~ r^{1/2} has a part in all waves as long as the innermost layer, which the poles have to follow.
         innermost = 0.5 * resolution.size * LAYER_RATIO**resolution.layers
-        parts = self.parts(replace(resolution, wavenumber=1.0 / innermost))
-        return released_plan_pencil(parts.space_of(parity), parts.poles, parts.plates(parity))
+        poles = vertical_poles(self.tank.depth, 1.0 / innermost, resolution.pole_error, lowest=_LOWEST)
+        parts = self.parts(resolution)
+        return released_plan(parts.space_of(parity), poles, parts.plates(parity))
 
     def errors(
         self, _resolution: PlanResolution, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]
@@ -309,9 +311,7 @@ class PlanParts:
     @property
     def classes(self) -> tuple[ClassParity, ...]:
         """Even and odd about each mirror plane."""
-        both: tuple[AxisParity, ...] = (0, 1)
-        along, across = ((None,) if mirror is None else both for mirror in self.mirrors)
-        return tuple(product(along, across))
+        return mirrored_classes(self.mirrors)
 
     def space_of(self, parity: ClassParity) -> PlanSpace:
         """Return the space of a class."""
@@ -323,6 +323,13 @@ class PlanParts:
             plan_plate(self.tank, index, polynomials, parity)
             for index, polynomials in enumerate(self.resolution.polynomials)
         )
+
+
+def mirrored_classes(mirrors: Mirrors) -> tuple[ClassParity, ...]:
+    """Return the symmetry classes of a plan: even and odd about each of its mirror planes."""
+    both: tuple[AxisParity, ...] = (0, 1)
+    along, across = ((None,) if mirror is None else both for mirror in mirrors)
+    return tuple(product(along, across))
 
 
 def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:

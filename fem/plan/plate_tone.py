@@ -4,12 +4,12 @@ It is the mode with the largest part of the plate's softest dry mode, in that sh
 among the modes that were asked for, more of this class are solved, until no higher one can have a larger part.
 
 With ψ = 0 on the water ψ ~ r^{1/2} at the edges, and the error falls like the thickness of the innermost layer: from
-two numbers of layers follows the limit, and from a third one its error.
+two numbers of layers follows the limit, and from a third one its error. Tones of one class are found together.
 """
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import ceil, pi
 from typing import Any, Generic, Protocol, TypeVar
@@ -23,8 +23,10 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass
 from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.plan.released import ReleasedProblem, released_tones
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Plate
@@ -36,7 +38,6 @@ _ROUNDS = 3
 _RATIO = 0.2
 # The tone with ψ = 0 is computed to this at most and at least.
 _RELEASED_FINEST, _RELEASED_COARSEST = 1e-5, 1e-3
-_FEW = 4
 # The three resolutions show the difference of the limits of the first two and of the last two, which are closer to each
 # other than to the truth where the series of powers of the thickness has not yet begun.
 _SAFETY = 2.0
@@ -55,7 +56,7 @@ class ClassModel(Protocol, Generic[R]):
     def problem(self, resolution: R, parity: ClassParity) -> tuple[CoupledPencil | None, Any]:
         """Return the problem of a class, ``None`` where nothing moves in it, and the plates in its shapes."""
 
-    def released(self, resolution: R, parity: ClassParity) -> CoupledPencil:
+    def released(self, resolution: R, parity: ClassParity) -> ReleasedProblem:
         """Return the problem of a class with ψ = 0 on the water."""
 
     def errors(self, resolution: R, one: SymmetryClass, plates: Any, modes: list[Mode]) -> np.ndarray:
@@ -82,48 +83,51 @@ class _Found:
         return float(self.errors.sum())
 
 
-def class_tone(
-    model: ClassModel[R], found: ClassModes, errors: np.ndarray, plate: int, tolerance: float, *, has_water: bool
-) -> PlateTone:
-    """Return the first elastic tone of a plate (collective).
+def class_tones(
+    model: ClassModel[R], found: ClassModes, errors: np.ndarray, tolerance: float, *, has_water: bool
+) -> list[PlateTone]:
+    """Return the first elastic tones of all elastic plates (collective).
 
     Args:
         model: the tank's.
         found: the modes that were asked for.
         errors: relative errors of their frequencies.
-        plate: index of the plate.
         tolerance: largest relative error of the frequencies that is accepted.
         has_water: whether there is water beside the plates, with waves.
     """
-    number, place, tone = _dry_tone(model.tank, found, plate)
-    one = found.classes[number]
+    dry = _dry_tones(model.tank, found)
     if has_water:
-        eigenvalue = tone.stiffness / (tone.mass + tone.squares)
-        release, error = _released_tone(model, one.parity, plate, tolerance, eigenvalue)
-        tone = replace(tone, pressure_release=release, pressure_release_error=error)
-    return _listed(found, errors, number, place, tone) or _sought(model, one, place, tone, tolerance)
+        for number in sorted({number for number, _, _ in dry}):
+            own = [at for at, (other, _, _) in enumerate(dry) if other == number]
+            released = _released(model, found.classes[number].parity, [dry[at][2] for at in own], tolerance)
+            for at, tone in zip(own, released, strict=True):
+                dry[at] = (*dry[at][:2], tone)
+    return [
+        _listed(found, errors, number, place, tone) or _sought(model, found.classes[number], place, tone, tolerance)
+        for number, place, tone in dry
+    ]
 
 
-def listed_tone(
-    tank: LevelTank, found: ClassModes, errors: np.ndarray, plate: int, _tolerance: float, *, has_water: bool
-) -> PlateTone:
-    """Return the first elastic tone of a plate if it is among the modes that were solved; see `class_tone`."""
-    number, place, tone = _dry_tone(tank, found, plate)
-    return _listed(found, errors, number, place, tone) or replace(
-        tone, reason="it may lie above the modes that were solved; more modes show it"
-    )
+def listed_tones(
+    tank: LevelTank, found: ClassModes, errors: np.ndarray, _tolerance: float, *, has_water: bool
+) -> list[PlateTone]:
+    """Return the first elastic tones that are among the modes that were solved; see `class_tones`."""
+    return [
+        _listed(found, errors, number, place, tone)
+        or replace(tone, reason="it may lie above the modes that were solved; more modes show it")
+        for number, place, tone in _dry_tones(tank, found)
+    ]
 
 
-def _dry_tone(tank: LevelTank, found: ClassModes, plate: int) -> tuple[int, int, PlateTone]:
-    """The class of a plate's softest dry mode, the place of the plate in it, and what is known of the tone dry."""
-    number, place, first = _softest(found, plate)
-    one = found.classes[number]
-    body = one.pencil.bodies[place]
-    stiffness, mass = float(body.stiffness[first]), float(body.mass[first, first])
-    return (
-        number,
-        place,
-        PlateTone(
+def _dry_tones(tank: LevelTank, found: ClassModes) -> list[tuple[int, int, PlateTone]]:
+    """Of each elastic plate the class of its softest dry mode, its place in it, and what is known of the tone dry."""
+    tones = []
+    for plate in (index for index, one in enumerate(tank.plates) if one.is_elastic):
+        number, place, first = _softest(found, plate)
+        one = found.classes[number]
+        body = one.pencil.bodies[place]
+        stiffness, mass = float(body.stiffness[first]), float(body.mass[first, first])
+        tone = PlateTone(
             plate=plate,
             order=None,
             dry=stiffness / max(mass, 1e-300),
@@ -131,8 +135,9 @@ def _dry_tone(tank: LevelTank, found: ClassModes, plate: int) -> tuple[int, int,
             stiffness=stiffness,
             mass=mass,
             symmetry=one.label,
-        ),
-    )
+        )
+        tones.append((number, place, tone))
+    return tones
 
 
 def _listed(found: ClassModes, errors: np.ndarray, number: int, place: int, tone: PlateTone) -> PlateTone | None:
@@ -223,22 +228,42 @@ def _resolved(
     return replace(tone, tone=best.tone, eigenvalue=best.eigenvalue, relative_error=best.relative_error)
 
 
-def _released_tone(
-    model: ClassModel[R], parity: ClassParity, plate: int, tolerance: float, eigenvalue: float
-) -> tuple[float, float]:
-    """λ of the tone with ψ = 0 on the water, and the relative error of its frequency."""
+def _released(model: ClassModel[R], parity: ClassParity, tones: list[PlateTone], tolerance: float) -> list[PlateTone]:
+    """Tones of one class with λ of each with ψ = 0 on the water, and the relative error of its frequency."""
     aim = min(max(tolerance, _RELEASED_FINEST), _RELEASED_COARSEST)
-    start = model.start(aim, eigenvalue, released=True)
-    values = []
+    highest = max(tone.stiffness / (tone.mass + tone.squares) for tone in tones)
+    start = model.start(aim, highest, released=True)
+    values, residuals = [], []
     for more in range(3):
         # The last one has a degree more, so that the error by the degree is seen too.
         resolution = replace(start, layers=start.layers + more, degree=start.degree + int(more == 2))
-        pencil = model.released(resolution, parity)
-        modes = solve_modes(pencil, min(_FEW, pencil.size), shapes=0, tolerance=1e-9)
-        place = next(at for at, body in enumerate(pencil.bodies) if body.surface == body_name(plate + 1))
-        found = elastic_tone(modes, pencil.bodies, place)
-        values.append(float(modes.eigenvalues[found.index]))
-    first, limit = (
-        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO) for thicker, thinner in itertools.pairwise(values)
+        problem = model.released(resolution, parity)
+        surfaces = [body.surface for body in problem.bodies]
+        found = released_tones(problem, [surfaces.index(body_name(tone.plate + 1)) for tone in tones])
+        values.append(found.eigenvalues)
+        residuals.append(found.errors)
+    limits, errors = released_limits(values, start.degree)
+    errors += np.max(residuals, axis=0)
+    return [
+        replace(tone, pressure_release=float(limit), pressure_release_error=float(error))
+        for tone, limit, error in zip(tones, limits, errors, strict=True)
+    ]
+
+
+def released_limits(values: Sequence[FloatArray], degree: int) -> tuple[FloatArray, FloatArray]:
+    """Return the limit of λ for thin layers, and the relative error of its root.
+
+    Of ψ ~ r^{1/2} the innermost cell of the thickness h and the degree p lacks an energy in proportion to h/p² (I.
+    Babuška and M. Suri, SIAM J. Numer. Anal. 24 (1987) 750).
+
+    Args:
+        values: with three numbers of layers, the last ones in a degree more.
+        degree: of the first ones.
+    """
+    thicker, thinner, last = values
+    ratios = _RATIO, _RATIO * (degree / (degree + 1)) ** 2
+    first, limits = (
+        after - (before - after) * ratio / (1.0 - ratio)
+        for before, after, ratio in zip((thicker, thinner), (thinner, last), ratios, strict=True)
     )
-    return limit, _SAFETY * 0.5 * abs(first / limit - 1.0)
+    return limits, _SAFETY * 0.5 * np.abs(first / limits - 1.0)

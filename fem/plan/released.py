@@ -1,104 +1,181 @@
-"""ψ = 0 on the water beside plates: the liquid under the plates alone, by conjugate gradients.
+"""ψ = 0 on the water beside plates: the liquid under the plates alone, their modes and first elastic tones.
 
 With A = k tanh kH of the whole plan, ψ of a load on the plates is A⁻¹ of it among the functions that vanish on the
 water. On them A is as large as k tanh kH of the plates' own plan with ψ = 0 at their edges, but for a factor of order
-one: both are norms of H^{1/2} (Lions and Magenes). Its inverse P as preconditioner leaves 15 to 25 steps on any mesh.
+one: both are norms of H^{1/2} (Lions and Magenes). Its inverse P preconditions Davidson's method, in which A is never
+inverted: with p = Mv + Cᵀψ the motions of the plates (v, ψ) solve
+
+    [M; C] K⁻¹ p = (1/λ) (Mv, Aψ)
+
+and the residual of each mode, by P, is the next vector: ten of them on any mesh.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from petsc4py import PETSc
-from scipy.linalg import eigh
+from numpy.typing import NDArray
+from scipy.linalg import block_diag, eigh
 
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.box_pencil import BoxLiquid, BoxStiffness, box_pencil
-from hydroelastic.fem.plan.rectangle_body import RectangleBody
-from hydroelastic.modal.liquid.vertical_poles import surface_response
+from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.dofs import FIRST_ELASTIC
 
-_MOST_STEPS, _RESIDUAL = 200, 1e-11
+_MOST_STEPS = 40
+# Part of 1/λ by which the residual of a tone changes it at most, if the next mode is as far as another 1/λ.
+_RESIDUAL = 1e-9
+# The softest shapes of each plate, with which the method starts.
+_START = 6
 
 
-@dataclass(kw_only=True)
-class ReleasedOperator:
-    """A⁺ with ψ = 0 on the water.
+@dataclass(frozen=True, kw_only=True)
+class ReleasedProblem:
+    """A symmetry class with ψ = 0 on the water, in the unknowns of ψ that are zero there.
 
     Attributes:
-        free: unknowns that are zero on the water.
-        apply: A among them.
-        precondition: P among them.
-        solves: how many loads were answered.
+        bodies: the plates that move in it.
+        free: these unknowns among all of ψ.
+        loads: ∫φq of their shapes, shape (shapes, unknowns).
+        apply: A.
+        precondition: P.
+        poles: number of poles of A.
     """
 
+    bodies: tuple[Body, ...]
     free: np.ndarray
+    loads: FloatArray
     apply: Callable[[FloatArray], FloatArray]
     precondition: Callable[[FloatArray], FloatArray]
-    solves: int = 0
+    poles: int = 0
 
-    def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
-        """See `LiquidOperator.solve`."""
-        rest = load.array_r[self.free]
-        answer = np.zeros_like(rest)
-        step = near = self.precondition(rest)
-        size = first = float(rest @ near)
-        for _ in range(_MOST_STEPS):
-            if size <= _RESIDUAL**2 * first:
-                break
-            image = self.apply(step)
-            length = size / float(step @ image)
-            answer += length * step
-            rest = rest - length * image
-            near = self.precondition(rest)
-            size, before = float(rest @ near), size
-            step = near + size / before * step
-        potential.set(0.0)
-        potential.array[self.free] = answer
-        self.solves += 1
+    @property
+    def stiffness(self) -> FloatArray:
+        """K of all shapes."""
+        return np.concatenate([body.stiffness for body in self.bodies])
 
 
-def released_box_pencil(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> CoupledPencil[BoxLiquid]:
-    """Return the coupled problem of a symmetry class of a box in which the plates move."""
-    pencil = box_pencil(liquid, plates, waves=False)
-    assert pencil is not None
-    return replace(pencil, solver=_released_box(liquid, plates), constraints=())
+@dataclass(frozen=True, kw_only=True)
+class _Motions:
+    """Vectors (v, ψ) with their momentum p and Aψ, one in each row."""
+
+    shapes: FloatArray
+    potentials: FloatArray
+    momentum: FloatArray
+    images: FloatArray
+
+    def combined(self, weights: FloatArray) -> _Motions:
+        return _Motions(
+            shapes=weights @ self.shapes,
+            potentials=weights @ self.potentials,
+            momentum=weights @ self.momentum,
+            images=weights @ self.images,
+        )
+
+    def beside(self, other: _Motions) -> _Motions:
+        return _Motions(
+            shapes=np.vstack([self.shapes, other.shapes]),
+            potentials=np.vstack([self.potentials, other.potentials]),
+            momentum=np.vstack([self.momentum, other.momentum]),
+            images=np.vstack([self.images, other.images]),
+        )
 
 
-def _released_box(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> ReleasedOperator:
-    """P by the standing waves under each plate with ψ = 0 at its edges."""
-    numbers = np.arange(liquid.size).reshape(liquid.shape)
-    blocks = []
-    for plate in plates:
-        own, squares, waves = [], [], []
-        for space, (start, end) in zip(liquid.spaces, plate.extents, strict=True):
-            under = space.between(start, end)
-            inside = np.setdiff1d(space.unknowns_of(under), space.unknowns_of(np.setdiff1d(space.cells, under)))
-            mass, stiffness = (matrix[np.ix_(inside, inside)] for matrix in (space.mass, space.stiffness))
-            shift = 1.0 / (end - start) ** 2
-            inverses, vectors = eigh(mass, stiffness + shift * mass)
-            own.append(inside)
-            squares.append(np.maximum(1.0 / np.maximum(inverses, 1e-300) - shift, 0.0))
-            waves.append(vectors / np.sqrt(np.maximum(inverses, 1e-300)))
-        wavenumbers = np.sqrt(np.add.outer(*squares))
-        responses = surface_response(np.maximum(wavenumbers, 0.5 / liquid.depth), liquid.depth) / liquid.images
-        blocks.append((numbers[np.ix_(*own)], waves, responses))
-    free = np.concatenate([block.ravel() for block, _, _ in blocks])
-    operator = BoxStiffness(liquid)
+@dataclass(frozen=True, kw_only=True)
+class ReleasedModes:
+    """Modes at unit generalized mass.
 
-    def apply(values: FloatArray) -> FloatArray:
-        whole = np.zeros(liquid.size)
-        whole[free] = values
-        return operator.product(whole)[free]
+    Attributes:
+        eigenvalues: λ, shape (modes,).
+        errors: the part of each by which its residual may change it, shape (modes,).
+        amplitudes: of the shapes, shape (modes, shapes).
+        potentials: ψ, shape (modes, unknowns).
+    """
 
-    def precondition(values: FloatArray) -> FloatArray:
-        found, first = np.empty_like(values), 0
-        for block, (along, across), responses in blocks:
-            part = values[first : first + block.size].reshape(block.shape)
-            found[first : first + block.size] = (along @ (responses * (along.T @ part @ across)) @ across.T).ravel()
-            first += block.size
-        return found
+    eigenvalues: FloatArray
+    errors: FloatArray
+    amplitudes: FloatArray
+    potentials: FloatArray
 
-    return ReleasedOperator(free=free, apply=apply, precondition=precondition)
+
+def released_tones(problem: ReleasedProblem, places: Sequence[int]) -> ReleasedModes:
+    """Return the first elastic tones of some plates.
+
+    Args:
+        problem: with ψ = 0 on the water.
+        places: of the plates among its bodies.
+    """
+    bodies = problem.bodies
+    firsts = np.cumsum([0, *(body.size for body in bodies)])
+    wanted = [int(firsts[place]) + bodies[place].dofs.index(FIRST_ELASTIC) for place in places]
+    softest = [first + np.argsort(body.stiffness)[:_START] for first, body in zip(firsts, bodies, strict=False)]
+    start = np.eye(problem.stiffness.size)[np.union1d(np.concatenate(softest), wanted)]
+    return released_modes(problem, start, lambda _, shares: shares[:, wanted].argmax(axis=0))
+
+
+def released_modes(
+    problem: ReleasedProblem, start: FloatArray, choose: Callable[[FloatArray, FloatArray], NDArray[np.intp]]
+) -> ReleasedModes:
+    """Return some modes by Davidson's method.
+
+    Free rigid motions have no momentum: all vectors are projected so, along those that P gives of them.
+
+    Args:
+        problem: with ψ = 0 on the water.
+        start: shapes of the plates to start with, shape (vectors, shapes).
+        choose: the modes among all in a space, from their 1/λ and the part of the potential energy that each shape has
+            in each, shape (modes, shapes).
+    """
+    stiffness, mass = problem.stiffness, block_diag(*[body.mass for body in problem.bodies])
+    free = np.flatnonzero(stiffness == 0.0)
+    compliance = np.divide(1.0, stiffness, out=np.zeros_like(stiffness), where=stiffness > 0.0)
+    loose = problem.loads[free]
+
+    def motions(shapes: FloatArray, loads: FloatArray) -> _Motions:
+        """The vectors that P gives of residuals, at unit energy."""
+        potentials = np.array([problem.precondition(load) for load in loads])
+        images = np.array([problem.apply(potential) for potential in potentials])
+        momentum = shapes @ mass + potentials @ problem.loads.T
+        found = _Motions(shapes=shapes, potentials=potentials, momentum=momentum, images=images)
+        if len(turned):
+            unit = np.eye(len(shapes))
+            found = found.beside(rigid).combined(np.hstack([unit, -found.momentum[:, free] @ turned]))
+        return found.combined(np.diag(1.0 / np.sqrt(np.diagonal(_energies(found, mass)))))
+
+    turned: FloatArray = np.empty((0, 0))
+    if len(free):
+        rigid = motions(np.eye(len(stiffness))[free], loose)
+        turned = np.linalg.inv(rigid.momentum[:, free])
+    start = start[(start * stiffness).any(axis=1)]
+    if not len(start):
+        none = np.empty(0)
+        return ReleasedModes(
+            eigenvalues=none, errors=none, amplitudes=np.empty((0, len(stiffness))), potentials=problem.loads[:0]
+        )
+    basis = motions(start, start @ problem.loads)
+    for _ in range(_MOST_STEPS):
+        values, vectors = eigh((basis.momentum * compliance) @ basis.momentum.T, _energies(basis, mass))
+        energies = compliance * (vectors.T @ basis.momentum) ** 2
+        chosen = choose(values, energies / energies.sum(axis=1)[:, None])
+        inverses, modes = values[chosen], basis.combined(vectors[:, chosen].T)
+        amplitudes = modes.momentum * compliance
+        shapes = amplitudes - inverses[:, None] * modes.shapes
+        rests = amplitudes @ problem.loads - inverses[:, None] * modes.images
+        answers = motions(shapes, rests)
+        # The answers have unit energy: this is that of the residual in the norm of P.
+        errors = ((shapes @ mass) * answers.shapes).sum(axis=1) + (rests * answers.potentials).sum(axis=1)
+        errors = (errors / inverses) ** 2
+        if errors.max() <= _RESIDUAL:
+            break
+        basis = basis.beside(answers.combined(np.eye(len(errors))[errors > _RESIDUAL]))
+    amplitudes /= inverses[:, None]
+    if len(free):
+        rest = modes.images - amplitudes @ problem.loads
+        amplitudes[:, free] = np.linalg.solve(rigid.potentials @ loose.T, rigid.potentials @ rest.T).T
+    return ReleasedModes(eigenvalues=1.0 / inverses, errors=errors, amplitudes=amplitudes, potentials=modes.potentials)
+
+
+def _energies(vectors: _Motions, mass: FloatArray) -> FloatArray:
+    whole = vectors.shapes @ mass @ vectors.shapes.T + vectors.potentials @ vectors.images.T
+    return np.asarray(0.5 * (whole + whole.T))

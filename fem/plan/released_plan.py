@@ -2,39 +2,33 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.plan_pencil import PlanLiquid, PlanPlate, PlanSpace, plan_pencil, water_unknowns
-from hydroelastic.fem.plan.released import ReleasedOperator
-from hydroelastic.modal.liquid.vertical_poles import VerticalPoles
+from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, water_unknowns
+from hydroelastic.fem.plan.released import ReleasedProblem
+from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.arrays import FloatArray
 
-
-def released_plan_pencil(
-    space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...]
-) -> CoupledPencil[PlanLiquid]:
-    """Return the coupled problem of a symmetry class of a plan in which the plates move, alike on each process."""
-    pencil = plan_pencil(space, poles, plates, waves=False, comm=None)
-    assert pencil is not None
-    return replace(pencil, solver=_released_plan(pencil.liquid), constraints=())
+# Error of the poles of P.
+_ROUGH = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
 class _PoleStiffness:
     """A = 1/f_h of the plan's Laplacian: α K₂ + β M₂ − Σ_i γ_i M₂ (K₂ + δ_i M₂)⁻¹ M₂ with f_h(−δ_i) = 0."""
 
-    liquid: PlanLiquid
+    space: PlanSpace
+    poles: VerticalPoles
 
     @cached_property
     def _parts(self) -> tuple[float, FloatArray, FloatArray]:
         """α, γ and δ."""
-        poles = self.liquid.poles
+        poles = self.poles
         roots = np.sqrt(poles.weights / poles.weights.sum())
         others = np.linalg.svd(roots[None])[2][1:].T
         zeros = np.linalg.eigvalsh(others.T @ (poles.shifts[:, None] * others))
@@ -43,11 +37,11 @@ class _PoleStiffness:
 
     @cached_property
     def _solvers(self) -> list[PETSc.KSP]:
-        return [_factorized(self.liquid.space.stiffness, self.liquid.space.mass, shift) for shift in self._parts[2]]
+        return [_factorized(self.space.stiffness, self.space.mass, shift) for shift in self._parts[2]]
 
     def product(self, values: PETSc.Vec) -> FloatArray:
         """Return A ψ."""
-        space = self.liquid.space
+        space = self.space
         slope, factors, zeros = self._parts
         mass, part = space.mass * values, values.duplicate()
         total = slope * (space.stiffness * values).array_r + (factors / zeros).sum() * mass.array_r
@@ -57,14 +51,17 @@ class _PoleStiffness:
         return np.asarray(total)
 
 
-def _released_plan(liquid: PlanLiquid) -> ReleasedOperator:
-    """P by the same poles under the plates with ψ = 0 at their edges."""
-    space = liquid.space
-    free = np.setdiff1d(np.arange(liquid.size), water_unknowns(space))
+def released_plan(space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...]) -> ReleasedProblem:
+    """Return the problem of a symmetry class of a plan in which the plates move, alike on each process.
+
+    P is that of a few poles under the plates with ψ = 0 at their edges.
+    """
+    free = np.setdiff1d(np.arange(space.size), water_unknowns(space))
     rows = PETSc.IS().createGeneral(free.astype(PETSc.IntType), comm=PETSc.COMM_SELF)
     stiffness, mass = (matrix.createSubMatrix(rows, rows) for matrix in (space.stiffness, space.mass))
-    solvers = [_factorized(stiffness, mass, shift) for shift in liquid.poles.shifts]
-    operator, whole = _PoleStiffness(liquid=liquid), space.mass.createVecRight()
+    few = vertical_poles(1.0 / float(poles.weights[0]), poles.wavenumber, _ROUGH, lowest=1.0)
+    solvers = [_factorized(stiffness, mass, shift) for shift in few.shifts]
+    operator, whole = _PoleStiffness(space=space, poles=poles), space.mass.createVecRight()
     right, left = mass.createVecs()
 
     def apply(values: FloatArray) -> FloatArray:
@@ -74,12 +71,20 @@ def _released_plan(liquid: PlanLiquid) -> ReleasedOperator:
     def precondition(values: FloatArray) -> FloatArray:
         left.array[:] = values
         total = np.zeros_like(values)
-        for weight, solver in zip(liquid.poles.weights, solvers, strict=True):
+        for weight, solver in zip(few.weights, solvers, strict=True):
             solver.solve(left, right)
             total += weight * right.array_r
         return total
 
-    return ReleasedOperator(free=free, apply=apply, precondition=precondition)
+    moving = tuple(plate for plate in plates if plate.body.size)
+    return ReleasedProblem(
+        bodies=tuple(plate.body for plate in moving),
+        free=free,
+        loads=np.concatenate([space.loads(plate)[:, free] for plate in moving]),
+        apply=apply,
+        precondition=precondition,
+        poles=len(poles.shifts),
+    )
 
 
 def _factorized(stiffness: PETSc.Mat, mass: PETSc.Mat, shift: float) -> PETSc.KSP:

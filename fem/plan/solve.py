@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model
-from hydroelastic.fem.level_bed.solution import BY_INERTIA, LevelMode, LevelProblem, LevelSolution, shortcomings
+from hydroelastic.fem.level_bed.solution import (
+    BY_INERTIA,
+    LevelMode,
+    LevelProblem,
+    LevelSolution,
+    PlateTone,
+    shortcomings,
+)
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -17,6 +24,7 @@ from hydroelastic.physics.volume_tank import VolumeTank
 if TYPE_CHECKING:
     from hydroelastic.fem.plan.box import BoxSolution
     from hydroelastic.fem.plan.plan import PlanSolution
+    from hydroelastic.fem.plan.released_solve import ReleasedSolution
     from hydroelastic.fem.volume.solve import VolumeSolution
 
 
@@ -52,25 +60,33 @@ def solve_smallest_model(
         from hydroelastic.fem.level_bed.solve import solve_level_tank
 
         return solve_level_tank(physical, tolerance=tolerance, modes=modes, tones=tones, report=report)
-    from hydroelastic.fem.plan.plate_tone import class_tone, listed_tone
+    from hydroelastic.fem.plan.plate_tone import class_tones, listed_tones
 
     watch = Stopwatch()
     tank = physical.scaled()
     problems: list[LevelProblem] = []
-    found: BoxSolution | PlanSolution | VolumeSolution
+    released = tank.top == "pressure_release" and len(tank.plates) > 0
+    found: BoxSolution | PlanSolution | ReleasedSolution | VolumeSolution
     with watch.stage("modes"):
         if model == "box":
-            from hydroelastic.fem.plan.box import BoxModel, solve_box
+            from hydroelastic.fem.plan.box import BoxModel, solve_box, symmetries
             from hydroelastic.fem.plan.box_problem import BoxProblem
 
             assert isinstance(tank.plan, Box)
-            found = solve_box(tank, tolerance=tolerance, count=modes, report=report)
+            if released:
+                from hydroelastic.fem.plan.released_solve import solve_released
+
+                found = solve_released(
+                    BoxModel(tank=tank), symmetries(tank), tolerance=tolerance, count=modes, report=report
+                )
+            else:
+                found = solve_box(tank, tolerance=tolerance, count=modes, report=report)
             size = (tank.plan.length, tank.plan.width)
             problems += [
                 BoxProblem(symmetry_class=one, plates=found.plates[one.parity], size=size)
                 for one in found.modes.classes
             ]
-            tone_of = partial(class_tone, BoxModel(tank=tank))
+            tones_of = partial(listed_tones, tank) if released else partial(class_tones, BoxModel(tank=tank))
         elif model == "volume":
             from hydroelastic.fem.volume.problem import VolumeProblem
             from hydroelastic.fem.volume.solve import solve_volume
@@ -78,28 +94,36 @@ def solve_smallest_model(
             assert isinstance(tank, VolumeTank)
             found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
-            tone_of = partial(listed_tone, tank)
+            tones_of = partial(listed_tones, tank)
         else:
             from hydroelastic.fem.plan.mesh_problem import MeshProblem
-            from hydroelastic.fem.plan.plan import PlanModel, solve_plan
-            from hydroelastic.meshes.plan_regions import plan_regions
+            from hydroelastic.fem.plan.plan import PlanModel, mirrored_classes, solve_plan
+            from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 
-            found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            _, regions = plan_regions(tank)
+            plan_model = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
+            wall, regions = plan_regions(tank)
+            mirrors = mirrors_of(wall, regions)
+            if released:
+                from hydroelastic.fem.plan.released_solve import solve_released
+
+                found = solve_released(
+                    plan_model, mirrored_classes(mirrors), tolerance=tolerance, count=modes, report=report
+                )
+            else:
+                found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             problems += [
-                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
+                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=mirrors)
                 for one in found.modes.classes
             ]
-            tone_of = partial(class_tone, PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD))
+            tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan_model)
     errors = found.relative_errors
     classes = found.modes
-    found_tones = []
     has_water = any(one.pencil.surfaces for one in classes.classes)
-    for index, plate in enumerate(tank.plates):
-        if plate.is_elastic and tones:
-            report(f"first elastic tone of plate {index + 1}")
-            with watch.stage("elastic tone"):
-                found_tones.append(tone_of(classes, errors, index, tolerance, has_water=has_water))
+    found_tones: list[PlateTone] = []
+    if tones and any(plate.is_elastic for plate in tank.plates):
+        report("first elastic tones of the plates")
+        with watch.stage("elastic tone"):
+            found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
     solution = LevelSolution(
         physical=physical,
         tank=tank,

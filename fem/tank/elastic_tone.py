@@ -9,13 +9,14 @@ surface, is always a single mode.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.surfaces import Body, LiquidSurface
-from hydroelastic.physics.dofs import FIRST_ELASTIC
+from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
 
 SHARED = 0.5
 """A mode that has more than this part of the largest participation shares the tone."""
@@ -125,10 +126,16 @@ def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurfac
         shares[name] = float(share)
     position = 0
     for body in bodies:
-        for dof in body.dofs:
-            shares[dof.kind] = shares.get(dof.kind, 0.0) + float(mode.energy[position])
-            position += 1
+        for kind, places in _places_by_kind(body.dofs).items():
+            shares[kind] = shares.get(kind, 0.0) + float(mode.energy[position:][places].sum())
+        position += body.size
     return max(shares, key=lambda kind: shares[kind])
+
+
+@lru_cache(maxsize=64)
+def _places_by_kind(dofs: tuple[Dof, ...]) -> dict[str, list[int]]:
+    kinds = [dof.kind for dof in dofs]
+    return {kind: [place for place, own in enumerate(kinds) if own == kind] for kind in dict.fromkeys(kinds)}
 
 
 def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:

@@ -12,6 +12,8 @@ from petsc4py import PETSc
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import EigenSolverError, Mode
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.field_solution import FieldSolution
 from hydroelastic.fem.tank.mesh import tip_points
@@ -90,12 +92,14 @@ def frequency_errors(
         infinite_frequency: whether the solution is that of the infinite-frequency limit.
     """
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
+    at_tips = _cells_at_tips(solution.mesh, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency)
     for number, part in enumerate(solution.parts):
         own = [place for place, owner in enumerate(parts) if owner == number]
-        potentials = [modes[place].potential for place in own]
-        liquid[own], tips[own] = energies_missed(
-            part.pencil.liquid, potentials, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency
-        )
+        cells = _cell_errors(part.pencil, [modes[place] for place in own])
+        liquid[own], tips[own] = _away_and_at(at_tips, cells, solution.mesh.mesh.comm)
+        projection = part.modes.projection
+        if projection is not None:
+            liquid[own] += projection.max(initial=0.0)
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
@@ -110,33 +114,35 @@ def frequency_errors(
     )
 
 
-def energies_missed(
-    liquid: LiquidSpace,
-    potentials: list[PETSc.Vec],
-    tank: Tank,
-    resolution: Resolution,
-    *,
-    half: bool,
-    infinite_frequency: bool,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials away from tips and at tips, each of shape (potentials,)
-    (collective).
+def _cell_errors(pencil: CoupledPencil, modes: list[Mode]) -> np.ndarray:
+    """See `cell_errors` (collective)."""
+    if modes and isinstance(pencil.answer, SharedAnswer) and pencil.answer.cell_errors is not None:
+        return pencil.answer.cell_errors(np.column_stack([mode.displacement.array_r for mode in modes]))
+    return cell_errors(pencil.liquid, [mode.potential for mode in modes])
+
+
+def _cells_at_tips(
+    mesh: TankMesh, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool
+) -> np.ndarray:
+    """Which owned cells are the innermost ones at a tip, shape (cells,)."""
+    # Without rings there are none.
+    corners = np.empty((0, 2))
+    if resolution.tip_size is not None:
+        corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
+    return cells_at(mesh.mesh, corners)
+
+
+def _away_and_at(at_tips: np.ndarray, cells: np.ndarray, comm: MPI.Comm) -> tuple[np.ndarray, np.ndarray]:
+    """Sum the energy errors of `cell_errors` away from tips and at tips, each of shape (potentials,) (collective).
 
     Raises:
         EigenSolverError: if an energy is not finite.
     """
-    mesh = liquid.tank.mesh
-    # Without rings there are no elements of the tips.
-    corners = np.empty((0, 2))
-    if resolution.tip_size is not None:
-        corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
-    cells = cell_errors(liquid, potentials)
-    at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
-    whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
+    tips, whole = comm.allreduce(np.array([cells[:, at_tips].sum(axis=1), cells.sum(axis=1)]), op=MPI.SUM)
     if not np.all(np.isfinite(whole)):
         # Comparisons of NaN with a tolerance are false.
         raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")
-    return whole - at_tips, at_tips
+    return whole - tips, tips
 
 
 def added_mass_errors(
@@ -158,7 +164,8 @@ def added_mass_errors(
         resolution: resolution of the mesh.
         half: whether the mesh is that of the left half of the tank.
     """
-    away, tips = energies_missed(liquid, potentials, tank, resolution, half=half, infinite_frequency=True)
+    at_tips = _cells_at_tips(liquid.tank, tank, resolution, half=half, infinite_frequency=True)
+    away, tips = _away_and_at(at_tips, cell_errors(liquid, potentials), liquid.tank.mesh.comm)
     return FrequencyErrors(
         liquid=away / added_mass + boundary_error(liquid.tank, tank),
         tips=tips / added_mass,

@@ -163,7 +163,7 @@ def infinite_frequency_limit(
         tank,
         tolerance,
         solve,
-        liquids.start(first, infinite_frequency=True),
+        liquids.first_of_limit(first),
         rounds=_MOST_ATTEMPTS,
         infinite_frequency=True,
         remesh=remesh,

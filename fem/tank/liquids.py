@@ -10,14 +10,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.cells import is_straight
 from hydroelastic.fem.liquid_pencil import answered
-from hydroelastic.fem.pencil import with_bodies
+from hydroelastic.fem.pencil import CoupledPencil, with_bodies
+from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, part_models
-from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.tank.resolution import Resolution, initial_resolution, sought_modes
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins
@@ -30,9 +35,13 @@ _MOST_MEMORY = 200e6
 class Liquids:
     """Makes the mesh and the matrices of each tank anew."""
 
-    def start(self, resolution: Resolution, *, infinite_frequency: bool = False) -> Resolution:
-        """Return the resolution of the first attempt, from the one planned for a tank."""
-        del infinite_frequency
+    def first(self, tank: Tank, tolerance: float, modes: int) -> Resolution:
+        """Return the resolution of the first attempt."""
+        tones, motions = expected_tones(tank), ends_of_motions(tank)
+        return initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
+
+    def first_of_limit(self, resolution: Resolution) -> Resolution:
+        """Return the resolution of the first attempt at the infinite-frequency limit, from the one planned for it."""
         return resolution
 
     def mesh(
@@ -64,19 +73,23 @@ class SharedLiquids(Liquids):
     """Makes mesh and matrices once for all tanks of one `liquid_key`.
 
     Attributes:
-        of_field: as fine as the first attempt must be for all of them; ``None`` takes that of each.
-        of_limit: the same for the infinite-frequency limit.
+        of_field: elements and dry modes of the first attempt, for all of them.
+        of_limit: as fine as the first attempt must be for the infinite-frequency limit of all of them.
     """
 
-    of_field: Resolution | None = None
-    of_limit: Resolution | None = None
+    of_field: Resolution
+    of_limit: Resolution
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
-    def start(self, resolution: Resolution, *, infinite_frequency: bool = False) -> Resolution:
-        """See `Liquids.start`."""
-        least = self.of_limit if infinite_frequency else self.of_field
-        return resolution if least is None else finest((resolution, least))
+    def first(self, tank: Tank, tolerance: float, modes: int) -> Resolution:
+        """See `Liquids.first`; where these elements are too coarse, the estimate of the error tells."""
+        tones, motions = expected_tones(tank), ends_of_motions(tank)
+        return sought_modes(tank, modes=modes, tones=tones, motions=motions).with_elements(self.of_field)
+
+    def first_of_limit(self, resolution: Resolution) -> Resolution:
+        """See `Liquids.first_of_limit`."""
+        return finest((resolution, self.of_limit))
 
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False
@@ -102,16 +115,21 @@ class SharedLiquids(Liquids):
         key = (id(mesh), degree, shapes, half, infinite_frequency)
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
-            self._pencils[key] = {
-                parity: replace(
-                    pencil,
-                    answer=pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
-                )
-                for parity, pencil in made.items()
-            }
+            self._pencils[key] = {parity: _shared(pencil) for parity, pencil in made.items()}
         return {
             parity: with_bodies(pencil, _bodies(tank, shapes, parity)) for parity, pencil in self._pencils[key].items()
         }
+
+
+def _shared(pencil: CoupledPencil) -> CoupledPencil:
+    answer = pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0])))
+    if answer is None:
+        return pencil
+    errors = SharedErrors(pencil.liquid, answer).cells if is_straight(pencil.liquid.tank.mesh) else None
+    volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
+    of_surfaces = volumes[:, pencil.body_size :] @ answer.root
+    shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, cell_errors=errors)
+    return replace(pencil, answer=shared)
 
 
 def _bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity | None) -> tuple[Body, ...]:

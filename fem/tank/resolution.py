@@ -125,23 +125,49 @@ def initial_resolution(
         tones: estimated dimensionless λ of the first elastic tone of each beam.
         motions: dimensionless λ up to which the mode of each motion of a float is sought.
     """
+    sought = sought_modes(tank, modes=modes, tones=tones, motions=motions)
+    moving = moving_pieces(tank)
+    highest = squared_frequency_of_mode(moving, sought.reported) if moving else 0.0
+    tolerance = workable_tolerance(tolerance, tank.depth)
+    wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
+    resolution = resolution_for(
+        tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, infinite_frequency=False)
+    )
+    return sought.with_elements(resolution)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoughtModes:
+    """The modes to solve for.
+
+    Attributes:
+        modes: their number.
+        reported: number of those that must be accurate; the others, above, identify a tone.
+        reaches_tones: whether the first elastic tone of each beam is expected among them.
+    """
+
+    modes: int
+    reported: int
+    reaches_tones: tuple[bool, ...]
+
+    def with_elements(self, resolution: Resolution) -> Resolution:
+        """Return the elements and dry modes of a resolution for these modes."""
+        return replace(resolution, modes=self.modes, reaches_tones=self.reaches_tones, widened=False)
+
+
+def sought_modes(tank: Tank, *, modes: int, tones: tuple[float, ...], motions: tuple[float, ...]) -> SoughtModes:
+    """Return the modes to solve for, with the arguments of `initial_resolution`."""
     moving = moving_pieces(tank)
     # With too many modes below it, a tone or a float's motion is not sought unless more modes are requested.
     tone = _highest(tones, lambda value: _modes_to_tone(moving, value) <= MOST_MODES_TO_TONE)
     most_to_motion = max(MOST_MODES_TO_MOTION, 2 * modes)
     motion = _highest(motions, lambda value: _modes_to_motion(moving, value) <= most_to_motion)
     to_motion = [_modes_to_motion(moving, motion)] if motion is not None else []
-    # Modes above the highest reported one identify the tone, but need not be accurate.
-    reported = max([modes, *([ceil(modes_below(moving, tone)) + 1] if tone is not None else []), *to_motion])
-    modes = max([modes, *([_modes_to_tone(moving, tone)] if tone is not None else []), *to_motion])
-    reaches_tones = tuple(tone is not None and other <= tone for other in tones)
-    highest = squared_frequency_of_mode(moving, reported) if moving else 0.0
-    tolerance = workable_tolerance(tolerance, tank.depth)
-    wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
-    resolution = resolution_for(
-        tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, infinite_frequency=False)
+    return SoughtModes(
+        modes=max([modes, *([_modes_to_tone(moving, tone)] if tone is not None else []), *to_motion]),
+        reported=max([modes, *([ceil(modes_below(moving, tone)) + 1] if tone is not None else []), *to_motion]),
+        reaches_tones=tuple(tone is not None and other <= tone for other in tones),
     )
-    return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
 def _modes_to_tone(moving: tuple[LevelPiece, ...], tone: float) -> int:

@@ -16,7 +16,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
-from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.modes import Mode, ModeSet
@@ -143,9 +143,7 @@ def solve_tank(
     watch = Stopwatch()
     with watch.stage("plan"):
         tank = physical.scaled()
-        tones = expected_tones(tank)
-        motions = ends_of_motions(tank)
-        first = initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
+        first = liquids.first(tank, tolerance, modes)
     user_mesh: TankMesh | None = None
     if comm.bcast(mesh is not None, root=0):
         with watch.stage("mesh"):
@@ -159,7 +157,7 @@ def solve_tank(
 
     @cache
     def limit() -> InfiniteFrequencyLimit:
-        coarsest = infinite_frequency_resolution(tank, workable, tones) if user_mesh is None else first
+        coarsest = infinite_frequency_resolution(tank, workable, expected_tones(tank)) if user_mesh is None else first
         return infinite_frequency_limit(
             comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, liquids=liquids, report=report
         )
@@ -174,7 +172,7 @@ def solve_tank(
         return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
 
     found = adaptive_solve(
-        liquids.start(first),
+        first,
         solve,
         lambda solution: ErrorEstimate(discretization=solution.largest_error, missing=len(solution.reasons)),
         lambda _, solution: _next_resolution(solution, remesh=user_mesh is None),
@@ -329,10 +327,7 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
         infinite_frequency_resolution(tank, workable_tolerance(tolerance, tank.depth), expected_tones(tank))
         for tank in scaled
     ]
-    fields = [
-        initial_resolution(tank, tolerance, modes=modes, tones=expected_tones(tank), motions=ends_of_motions(tank))
-        for tank in scaled
-    ]
+    fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]
     liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]

@@ -2,10 +2,11 @@
 
     (M + a∞) ξ″ + B ξ′ + Σ pᵢ βᵢ |pᵢᵀξ′| pᵢᵀξ′ + ∫₀ᵗ K(t − u) ξ′(u) du + C ξ = r(t) Re Σ fₙ e^{−iωₙt}
 
-from rest at t = 0, with the stiffness C of hydrostatics and of forces from outside, their damping B and drags β along
-paths p, and a ramp r of the waves (W. E. Cummins 1962). The convolution is the sum of the exponentials of
-`RadiationMemory`, whose states z′ = pz + ξ′ make the equation one of first order, which SciPy's DOP853 integrates.
-Exponentials far quicker than all else are only a damping and a mass: ∫ e^{pu} ξ′(t − u) du = −ξ′/p − ξ″/p² …
+from rest at t = 0, in equilibrium or displaced from it, with the stiffness C of hydrostatics and of forces from
+outside, their damping B and drags β along paths p, and a ramp r of the waves (W. E. Cummins 1962). The convolution is
+the sum of the exponentials of `RadiationMemory`, whose states z′ = pz + ξ′ make the equation one of first order, which
+SciPy's DOP853 integrates. Exponentials far quicker than all else are only a damping and a mass: ∫ e^{pu} ξ′(t − u) du =
+−ξ′/p − ξ″/p² …
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ class MovingBodies:
             self.stiffness
             - omega**2 * (self.inertia + self.memory.infinite_frequency_added_mass)
             - 1j * omega * self.memory.transform(waves.omega)
-            + np.array([self.outside.impedance(one) for one in waves.omega]),
+            + np.array([self.outside.impedance(one) for one in waves.omega]).reshape(-1, *self.inertia.shape),
             dtype=complex,
         )
         if not len(self.outside.drag):
@@ -114,13 +115,16 @@ class MovingBodies:
         damping = self.outside.equivalent_damping(speeds, REGULAR if is_regular else IRREGULAR)
         return without_drag - 1j * omega * damping
 
-    def motion(self, waves: WaveForces, times: Floats, tolerance: float) -> tuple[Floats, Floats]:
-        """Integrate from rest at t = 0.
+    def motion(
+        self, waves: WaveForces, times: Floats, tolerance: float, initial: Floats | None = None
+    ) -> tuple[Floats, Floats]:
+        """Integrate from rest at t = 0, the water at rest too.
 
         Args:
             waves: the waves' forces.
             times: times t ≥ 0 in ascending order, s, shape (t,).
             tolerance: error of each step relative to the motion.
+            initial: displacement at t = 0, shape (m,); by default none.
 
         Returns:
             Displacements and velocities, each of shape (t, m).
@@ -138,9 +142,12 @@ class MovingBodies:
             change[velocity] += inverse @ (waves.at(time) - self.outside.paths.T @ (drag * np.abs(speeds) * speeds))
             return change
 
-        size = np.abs(self.steady(waves)).sum(axis=0) + np.finfo(float).tiny
+        start = np.zeros(matrix.shape[0])
+        if initial is not None:
+            start[:count] = initial
+        size = np.abs(self.steady(waves)).sum(axis=0) + np.abs(start[:count]).max() + np.finfo(float).tiny
         # States far below the motions need no digits of their own.
-        scale = np.concatenate([size, size * waves.omega.max(), np.full(matrix.shape[0] - 2 * count, size.max())])
+        scale = np.concatenate([size, size * self._highest(waves), np.full(matrix.shape[0] - 2 * count, size.max())])
 
         def bounded(_time: float, state: Floats) -> float:
             return float(_UNBOUNDED - np.abs(state[:count] / size).max())
@@ -149,7 +156,7 @@ class MovingBodies:
         found = solve_ivp(
             rates,
             (0.0, float(times[-1])) if times[-1] > 0.0 else (0.0, 1.0),
-            np.zeros(matrix.shape[0]),
+            start,
             method="DOP853",
             t_eval=times,
             rtol=max(tolerance, 1e-12),
@@ -165,7 +172,7 @@ class MovingBodies:
         mass = self.inertia + self.memory.infinite_frequency_added_mass
         stiffness = self.stiffness + self.outside.stiffness
         natural = np.sqrt(np.abs(np.linalg.eigvals(np.linalg.solve(mass, stiffness))).max())
-        return max(float(waves.omega.max()), float(natural))
+        return max(float(waves.omega.max(initial=0.0)), float(natural))
 
     def _system(self, highest: float) -> tuple[csr_array, Floats]:
         """The matrix of the linear part with states ξ, ξ′, and Re z and Im z of each exponential and motion, and the

@@ -19,7 +19,7 @@ ends of the ray.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TypeAlias
 
@@ -28,6 +28,9 @@ import numpy.typing as npt
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Complexes: TypeAlias = npt.NDArray[np.complex128]
+
+# Singular values of a least squares problem that are left out, relative to the largest.
+_DEPENDENT = 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +46,14 @@ class RadiationMemory:
     infinite_frequency_added_mass: Floats
     rates: Complexes
     weights: Complexes
+
+    def scaled(self, factor: float) -> RadiationMemory:
+        """Return the memory of a multiple of H."""
+        return replace(
+            self,
+            infinite_frequency_added_mass=factor * self.infinite_frequency_added_mass,
+            weights=factor * self.weights,
+        )
 
     def impulse_response(self, times: Floats) -> Floats:
         """K at times t ≥ 0, s, shape (n,): shape (n, m, m)."""
@@ -66,6 +77,28 @@ class RadiationMemory:
         """a = a∞ − (1/ω) ∫ K sin ωt dt at ω > 0, shape (n, m, m): Ogilvie's relation."""
         sines: Floats = self.transform(omega).imag / np.asarray(omega)[:, None, None]
         return self.infinite_frequency_added_mass - sines
+
+    def hydrodynamic(self, omega: Floats) -> Complexes:
+        """a + i b/ω at ω > 0, shape (n, m, m)."""
+        values: Complexes = self.infinite_frequency_added_mass + 1j * self.transform(omega) / omega[:, None, None]
+        return values
+
+    def completed(self, omega: Floats, hydrodynamic: Complexes, rates: Complexes) -> RadiationMemory:
+        """Return the memory with further exponentials, by least squares of what it lacks of H at real frequencies.
+
+        Args:
+            omega: frequencies, rad/s, shape (n,).
+            hydrodynamic: H = a + i b/ω there, shape (n, m, m).
+            rates: p of the exponentials, 1/s, shape (k,).
+        """
+        upper, lower = (0.5 / (-1j * omega[:, None] - own) for own in (rates, rates.conj()))
+        columns = 1j / omega[:, None] * np.hstack([upper + lower, 1j * (upper - lower)])
+        lacking = (hydrodynamic - self.hydrodynamic(omega)).reshape(len(omega), -1)
+        known, wanted = (np.vstack([part.real, part.imag]) for part in (columns, lacking))
+        sizes = np.linalg.norm(known, axis=0)
+        found = np.linalg.lstsq(known / sizes, wanted, rcond=_DEPENDENT)[0] / sizes[:, None]
+        added = (found[: len(rates)] + 1j * found[len(rates) :]).reshape(len(rates), *self.weights.shape[1:])
+        return replace(self, rates=np.concatenate([self.rates, rates]), weights=np.concatenate([self.weights, added]))
 
 
 def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floats:

@@ -53,6 +53,7 @@ class MotionTable:
         wave_amplitude: (w,) m.
         wave_phase: (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body.
         ramp: time in which the waves grow, s.
+        initial: (m,) displacement at t = 0, m or rad.
         elevation: (n,) m, there, without the bodies.
         displacement: (n, m) m or rad.
         velocity: (n, m) m/s or rad/s.
@@ -69,11 +70,18 @@ class MotionTable:
     wave_amplitude: Floats
     wave_phase: Floats
     ramp: float
+    initial: Floats
     elevation: Floats
     displacement: Floats
     velocity: Floats
     steady: Floats
     relative_error: float
+
+    @property
+    def beginning(self) -> str:
+        """How the motion begins, in words."""
+        waves = f"waves from the {self.waves_from}" if len(self.wave_omega) else "still water"
+        return f"after a release in {waves}" if self.initial.any() else f"from rest in {waves}"
 
     @cached_property
     def _grown(self) -> np.ndarray:

@@ -14,9 +14,9 @@ _OF_MULTIGRID = {2: 2_000.0, 4: 3_000.0}
 _MEMORY = Path("/proc/meminfo")
 
 
-def memory_needed(unknowns: int, degree: int) -> float:
-    """Return about the bytes that a problem needs on all processes together."""
-    if unknowns <= DIRECT_UNKNOWNS:
+def memory_needed(unknowns: int, degree: int, *, factorized: bool = False) -> float:
+    """Return about the bytes that a problem needs on all processes together, where it is factorized at any size say."""
+    if factorized or unknowns <= DIRECT_UNKNOWNS:
         return _OF_FACTORS * float(unknowns) ** (4.0 / 3.0)
     return _OF_MULTIGRID[2 if degree <= 2 else 4] * unknowns
 

@@ -21,7 +21,7 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MisplacedError
 
 SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], LiquidOperator]
 """Makes A⁺ from the space, A, the layers of constant volume, and the number of parts that are alike."""
@@ -81,7 +81,7 @@ def volume_pencil(
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     if any(layer.measure <= 0.0 for layer in closed):
-        raise MeshError("baffles close in a part of the liquid in which nothing moves")
+        raise MisplacedError("baffles close in a part of the liquid in which nothing moves")
     of_plates = (load for plate in moving for load in plate_loads(liquid, plate))
     of_floats = (load for body in rigid for load in shape_loads(liquid, body))
     loads = (images * load for load in chain(of_plates, of_floats))

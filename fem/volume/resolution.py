@@ -23,6 +23,8 @@ LARGEST_MESH = 100_000
 
 _MOST_POLYNOMIALS = 30
 _DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
+# The higher degree pays from larger errors on where cells at singular edges are in layers; measured on plates.
+_FINE_LAYERED = 3e-6
 # Largest and smallest cells, in units of the tank.
 _LARGEST, _SMALLEST = 0.35, 5e-4
 # Relative error of ω by waves over (kh)^2p, of tetrahedra of size h and degree p: of degree 2, and of higher ones. By
@@ -32,6 +34,13 @@ _OF_EDGES, _EDGE_ORDER = {2: 0.2, 4: 0.05}, {2: 1.5, 4: 2.0}
 _OF_CORNERS, _CORNER_ORDER = {2: 0.12, 4: 0.05}, 4.0 / 3.0
 # At the tips of baffles over h, as ψ ~ r^(1/2).
 _OF_TIPS = 0.02
+# Layers at edges of plates, corners and tips, and the errors and their orders with them; measured. More layers add
+# nothing: the error is in the first ones.
+_LAYERS_OF_EDGES, _LAYERS_OF_CORNERS, _LAYERS_OF_TIPS = 2, 3, 5
+_OF_LAYERED_EDGES, _LAYERED_EDGE_ORDER = {4: 3.5e-4, 6: 3e-5}, 1.2
+_OF_LAYERED_CORNERS, _OF_LAYERED_TIPS = {4: 6e-4, 6: 2e-4}, {4: 6e-4, 6: 2e-4}
+# Cells that layers add to each cell along an edge, over n (n + 1); measured.
+_CELLS_OF_LAYERS = 10.0
 # Cells of edge h in a volume over that over h³, and growing from edges of plates over their length over h; measured.
 _CELLS_OF_VOLUME, _CELLS_OF_EDGES = 8.5, 37.0
 _MOST_REFINEMENTS = 4
@@ -126,26 +135,45 @@ def _step(excess: float, order: float) -> float:
 def volume_resolution(tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors) -> VolumeResolution:
     """Return the first resolution for some modes of a dimensionless tank.
 
-    It has degree 4, and 6 for small errors. Where that needs too many unknowns for a factorization, and those of degree
-    2 cost less, because edges and not waves ask for small cells or the error may be large, it is degree 2. Baffles, an
-    interface and cells of a file keep the higher one.
+    It has degree 4, and 6 for small errors, and layers at singular edges, which a factorization takes. Where these
+    would be too many unknowns for one, cells are alike in all directions; and where those of degree 2 then cost less,
+    because edges and not waves ask for small cells or the error may be large, it is degree 2. Baffles, an interface and
+    cells of a file keep the higher one.
     """
+    is_of_mesh = _is_of_mesh(tank)
+    if not is_of_mesh and (tank.plates or tank.floats or tank.baffles or _has_corners(tank)):
+        for degree in (_FINE_DEGREE, _DEGREE) if tolerance < _FINE_LAYERED else (_DEGREE,):
+            layered = _of_degree(degree, tank, tolerance, count, layered=True)
+            if _expected_unknowns(tank, layered, mirrors) <= DIRECT_UNKNOWNS:
+                return layered
     first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count)
     second = _of_degree(2, tank, tolerance, count)
-    many, few = (one.degree**3 / 6.0 * expected_cells(tank, one.sizes, mirrors) for one in (first, second))
-    takes_second = not (tank.baffles or tank.interface or _is_of_mesh(tank))
+    many, few = (_expected_unknowns(tank, one, mirrors) for one in (first, second))
+    takes_second = not (tank.baffles or tank.interface or is_of_mesh)
     return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
 
 
-def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
+def _has_corners(tank: VolumeTank) -> bool:
+    """Whether ψ has the singularity of a right-angled corner in the liquid."""
+    return bool(tank.floats) or any(isinstance(outline, Rectangle) for outline in tank.columns)
+
+
+def _of_degree(
+    degree: int, tank: VolumeTank, tolerance: float, count: int, *, layered: bool = False
+) -> VolumeResolution:
     kind = min(degree, 4)
     eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
-    corners = tank.floats or any(isinstance(outline, Rectangle) for outline in tank.columns)
-    order = 1.0 if tank.baffles else _CORNER_ORDER if corners else _EDGE_ORDER[kind]
-    part = _OF_TIPS if tank.baffles else (_OF_CORNERS if corners else _OF_EDGES)[kind]
+    if tank.baffles:
+        order, part, layers = 1.0, _OF_LAYERED_TIPS[degree] if layered else _OF_TIPS, _LAYERS_OF_TIPS
+    elif _has_corners(tank):
+        order, layers = _CORNER_ORDER, _LAYERS_OF_CORNERS
+        part = _OF_LAYERED_CORNERS[degree] if layered else _OF_CORNERS[kind]
+    else:
+        order, layers = _LAYERED_EDGE_ORDER if layered else _EDGE_ORDER[kind], _LAYERS_OF_EDGES
+        part = _OF_LAYERED_EDGES[degree] if layered else _OF_EDGES[kind]
     edge = (0.5 * tolerance / part) ** (1.0 / order)
     return VolumeResolution(
         degree=degree,
@@ -156,6 +184,7 @@ def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> V
             # Between nodes, curved cells would follow no plane triangle of a hull.
             geometry=1 if any(one.hull and one.hull.is_triangulated for one in tank.floats) else 4,
             around=16,
+            layers=layers if layered else 0,
         ),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),
     )
@@ -163,7 +192,7 @@ def _of_degree(degree: int, tank: VolumeTank, tolerance: float, count: int) -> V
 
 def with_refinements(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeSizes:
     """Return sizes with as many refinements that gmsh makes no more than about `LARGEST_MESH` cells."""
-    if _is_of_mesh(tank):
+    if _is_of_mesh(tank) or sizes.layers:
         return sizes
     levels = ceil(log(expected_cells(tank, sizes, mirrors) / LARGEST_MESH, 8))
     return replace(sizes, refinements=min(max(0, levels), _MOST_REFINEMENTS))
@@ -173,8 +202,13 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     """Return about the number of cells of a mesh between planes of symmetry, without making it."""
     lengths = [4.0 * plate.outline.area**0.5 for plate in tank.plates]
     lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
-    cells = _CELLS_OF_VOLUME * tank.plan.area * tank.depth / sizes.bulk**3 + _CELLS_OF_EDGES * sum(lengths) / sizes.edge
+    of_edges = _CELLS_OF_EDGES + _CELLS_OF_LAYERS * sizes.layers * (sizes.layers + 1)
+    cells = _CELLS_OF_VOLUME * tank.plan.area * tank.depth / sizes.bulk**3 + of_edges * sum(lengths) / sizes.edge
     return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
+
+
+def _expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:
+    return resolution.degree**3 / 6.0 * expected_cells(tank, resolution.sizes, mirrors)
 
 
 def _is_of_mesh(tank: VolumeTank) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import count as numbered
+from sys import maxsize
 
 import numpy as np
 from mpi4py import MPI
@@ -155,8 +156,11 @@ def _solve(
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
-        require_memory(size, resolution.degree, processes)
-        pencils = model.pencils(partial(direct_or_multigrid, tolerance=tolerance))
+        layered = bool(resolution.sizes.layers)
+        require_memory(size, resolution.degree, processes, factorized=layered)
+        solver_of = partial(direct_or_multigrid, tolerance=tolerance)
+        # Multigrid would hardly converge on layers.
+        pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
         if unfinished is not None and any(isinstance(one.solver, MultigridSolver) for one in pencils.values()):
             # Products of other matrices, of a changed file say, are none of these.
             norms = [f"{part.norm():.9e}" for one in pencils.values() for part in (one.laplace, one.coupling, one.mass)]
@@ -182,7 +186,7 @@ def _solve(
         growing = any(len(one.pencil.unstable) for one in modes.classes)
         by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
         counted = (
-            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver))
+            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver), repeated=True)
             if by_inertia
             else no_mode_is_beyond(modes, products)
         )
@@ -211,13 +215,13 @@ def _solve(
     ).solution
 
 
-def require_memory(unknowns: int, degree: int, comm: MPI.Comm) -> None:
+def require_memory(unknowns: int, degree: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
     """Refuse a problem that does not fit into the memory of the first process's computer (collective).
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
-    needed, free = memory_needed(unknowns, degree), comm.bcast(free_memory())
+    needed, free = memory_needed(unknowns, degree, factorized=factorized), comm.bcast(free_memory())
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,8 +61,7 @@ def beam_shapes(beam: Beam, count: int) -> BeamShapes:
 
 def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     guided, length = beam.ends == "guided", beam.length
-    wavenumber = guided_wavenumber if guided else free_free_wavenumber
-    roots = np.array([wavenumber(number) for number in range(count)])
+    roots = _roots(guided, count)
 
     def deflections(x: Array) -> Array:
         if guided:
@@ -83,6 +83,12 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
         mass=np.diag(np.full(count, beam.mass_per_length * length)),
         wavenumber=float(roots.max(initial=0.0)) / length,
     )
+
+
+@lru_cache(maxsize=64)
+def _roots(guided: bool, count: int) -> Array:
+    wavenumber = guided_wavenumber if guided else free_free_wavenumber
+    return np.array([wavenumber(number) for number in range(count)])
 
 
 def _computed_shapes(beam: Beam, count: int) -> BeamShapes:

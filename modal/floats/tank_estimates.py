@@ -48,7 +48,7 @@ def _float_in_tank(tank: Tank, layers: TwoLayers, body: RigidFloat) -> FloatInTa
         tank_length=tank.length,
         position=0.5 * sum(rest.waterplane),
         mass=rest.mass,
-        stiffness=rest.heave_stiffness,
+        stiffness=float(body.stiffness[0, 0]),
         profile=body.hull.profile if rest.reference_level == rest.level else None,
     )
 

@@ -1,1 +1,1 @@
-"""Files of other programs with the hydrodynamics of whole rigid bodies: WAMIT, BEMIO of WEC-Sim, Nemoh, Capytaine."""
+"""Files of other programs with the hydrodynamics of whole bodies: WAMIT, BEMIO of WEC-Sim, Nemoh, Capytaine."""

@@ -3,7 +3,10 @@
 Its scales are those of WAMIT with L = 1 m: A/ρ, B/(ρω), X/(ρg), C/(ρg), K/ρ, and impulse responses of the excitation
 f/(ρg); phases are those of e^{iωt}. MATLAB stores arrays column by column, so that a row vector of n is (n, 1) here,
 and matrices over the frequency are (force, motion, frequency), forces (motion, direction, frequency). Source: WEC-Sim,
-source/functions/BEMIO/writeBEMIOH5.m, normalizeBEM.m, radiationIRF.m and excitationIRF.m.
+source/functions/BEMIO/writeBEMIOH5.m, normalizeBEM.m, radiationIRF.m and excitationIRF.m. Bodies with modes beyond the
+six motions ("generalized body modes") have their mass, damping and bending stiffness among their properties, of shape
+(own motion, motion of all bodies, 1) and in SI units, and all bodies then have a hydrostatic stiffness of shape (own
+motion, own motion, 1).
 """
 
 from __future__ import annotations
@@ -41,22 +44,34 @@ def write_bemio(bodies: WholeBodies, path: Path) -> None:
         _write(file, "simulation_parameters/wave_dir", bodies.directions, "Wave direction", "deg")
         for index, body in enumerate(bodies.bodies):
             group = file.create_group(f"body{index + 1}")
-            _write_properties(group.create_group("properties"), body, index)
-            _write_coefficients(group.create_group("hydro_coeffs"), bodies, slice(6 * index, 6 * index + 6))
+            own = bodies.spans[index]
+            _write_properties(group.create_group("properties"), body, index, own)
+            if any(each.modes for each in bodies.bodies):
+                _write_modes(group["properties"], bodies, own)
+            _write_coefficients(group.create_group("hydro_coeffs"), bodies, own)
 
 
-def _write_properties(group: h5py.Group, body: WholeBody, index: int) -> None:
+def _write_properties(group: h5py.Group, body: WholeBody, index: int, own: slice) -> None:
     group["name"] = np.bytes_(body.name)
     for name, value, meaning, unit in (
         ("body_number", index + 1.0, "Number of rigid body from the BEM simulation", ""),
         ("cb", np.array(body.centre_of_buoyancy), "Center of buoyancy", "m"),
         ("cg", np.array(body.centre_of_gravity), "Center of gravity", "m"),
         ("disp_vol", body.volume, "Displaced volume", "m^3"),
-        ("dof", 6.0, "Degrees of freedom", ""),
-        ("dof_start", 6.0 * index + 1.0, "Degrees of freedom", ""),
-        ("dof_end", 6.0 * index + 6.0, "Degrees of freedom", ""),
+        ("dof", len(body.motions), "Degrees of freedom", ""),
+        ("dof_start", own.start + 1, "Degrees of freedom", ""),
+        ("dof_end", own.stop, "Degrees of freedom", ""),
     ):
         _write(group, name, value, meaning, unit)
+
+
+def _write_modes(group: h5py.Group, bodies: WholeBodies, own: slice) -> None:
+    for name, matrix, unit in (
+        ("mass", bodies.inertia, "kg"),
+        ("damping", np.zeros_like(bodies.inertia), "N-s/m"),
+        ("stiffness", bodies.bending_stiffness, "N/m"),
+    ):
+        _write(group, name, matrix[own, :, None], f"Generalized body modes {name}", unit)
 
 
 def _write_coefficients(group: h5py.Group, bodies: WholeBodies, own: slice) -> None:
@@ -64,10 +79,11 @@ def _write_coefficients(group: h5py.Group, bodies: WholeBodies, own: slice) -> N
     if far is None or times is None or response is None:
         raise ValueError("BEMIO's file holds impulse responses and the added mass at infinite frequency")
     density, weight = bodies.density, bodies.density * bodies.gravity
+    restoring = bodies.stiffness[own, own] / weight
     _write(
         group,
         "linear_restoring_stiffness",
-        bodies.stiffness[own, own] / weight,
+        restoring[:, :, None] if any(body.modes for body in bodies.bodies) else restoring,
         "Hydrostatic stiffness matrix (normalized by rho*g)",
         "N/m",
     )
@@ -84,7 +100,7 @@ def _write_coefficients(group: h5py.Group, bodies: WholeBodies, own: slice) -> N
     lags = np.linspace(-times.max(), times.max(), 2 * len(times) - 1)
     omega = np.linspace(bodies.omega[0], bodies.omega[-1], _INTERPOLATED)
     functions = excitation.create_group("impulse_response_fun")
-    shape = (6, len(bodies.directions), -1)
+    shape = (own.stop - own.start, len(bodies.directions), -1)
     forces = np.conj(np.moveaxis(bodies.excitation_force[..., own], 0, -1).swapaxes(0, 1)) / weight
     between = np.array([np.interp(omega, bodies.omega, row) for row in forces.reshape(-1, len(bodies.omega))])
     _write(functions, "f", _excitation_response(omega, between, lags).reshape(shape), "Impulse response function", "")

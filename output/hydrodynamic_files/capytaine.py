@@ -1,7 +1,8 @@
 """A dataset of Capytaine: what its `assemble_dataset` makes, with complex numbers as `separate_complex_values` does.
 
 Capytaine's time factor and phases are those of this project; dimensions and names are those of its version 3. The
-motions are those that are modelled, rotations about the centres of gravity.
+motions are those that are modelled: rotations about the centres of gravity, hinges and elastic modes of beams. The
+bending stiffness of these is beside that of hydrostatics: `rao` takes it as its argument `stiffness`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hydroelastic.output.dataset import write_dataset
-from hydroelastic.output.hydrodynamic_files.whole_bodies import MOTIONS, WholeBodies
+from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies
 from hydroelastic.output.variables import Variable
 
 
@@ -26,8 +27,8 @@ def write_capytaine(bodies: WholeBodies, path: Path) -> None:
 def _variables(bodies: WholeBodies) -> Iterator[Variable]:
     places = np.flatnonzero(bodies.modelled)
     names = [
-        (bodies.bodies[place // 6].name + "__" if len(bodies.bodies) > 1 else "") + MOTIONS[place % 6]
-        for place in map(int, places)
+        (bodies.bodies[bodies.names[place][0]].name + "__" if len(bodies.bodies) > 1 else "") + bodies.names[place][1]
+        for place in places
     ]
     of_motions = ("omega", "radiating_dof", "influenced_dof")
     of_forces = ("omega", "wave_direction", "influenced_dof")
@@ -40,7 +41,10 @@ def _variables(bodies: WholeBodies) -> Iterator[Variable]:
         ("excitation_force", bodies.excitation_force),
     ):
         yield _array(name, of_forces, force[..., places])
-    for name, matrix in (("inertia_matrix", bodies.inertia), ("hydrostatic_stiffness", bodies.stiffness)):
+    matrices = {"inertia_matrix": bodies.inertia, "hydrostatic_stiffness": bodies.stiffness}
+    if bodies.bending_stiffness.any():
+        matrices["bending_stiffness"] = bodies.bending_stiffness
+    for name, matrix in matrices.items():
         yield _array(name, ("influenced_dof", "radiating_dof"), matrix[np.ix_(places, places)])
     yield _array("center_of_mass", ("body", "xyz"), [body.centre_of_gravity for body in bodies.bodies], units="m")
     yield _array("center_of_buoyancy", ("body", "xyz"), [body.centre_of_buoyancy for body in bodies.bodies], units="m")

@@ -25,7 +25,7 @@ def write_nemoh(bodies: WholeBodies, folder: Path) -> None:
     _write(folder / "Nemoh.cal", _settings(bodies))
     for index, body in enumerate(bodies.bodies):
         ending = f"_{index}" if several else ""
-        own = slice(6 * index, 6 * index + 6)
+        own = bodies.spans[index]
         _write(folder / "mesh" / f"Hydrostatics{ending}.dat", _hydrostatics(body))
         _write(folder / "mesh" / f"KH{ending}.dat", (_row(row) for row in bodies.stiffness[own, own]))
     _write(folder / "results" / "RadiationCoefficients.tec", _radiation(bodies))
@@ -51,11 +51,13 @@ def _settings(bodies: WholeBodies) -> Iterator[str]:
         yield f"mesh\\{body.name}.dat\t! Name of mesh file"
         yield "0 0\t! Number of points and number of panels"
         for what in ("degrees of freedom", "resulting generalised forces"):
-            yield f"6\t! Number of {what}"
+            yield f"{len(body.motions)}\t! Number of {what}"
             for place, motion in enumerate(MOTIONS):
                 axis = " ".join("1." if place % 3 == along else "0." for along in range(3))
                 about = body.centre_of_gravity if place > 2 else (0.0, 0.0, 0.0)
                 yield f"{1 + place // 3} {axis} {' '.join(map(repr, about))}\t! {motion}"
+            # What is neither a translation nor a rotation.
+            yield from (f"3 0. 0. 0. 0. 0. 0.\t! {motion}" for motion in body.modes)
         yield "0\t! Number of lines of additional information"
     yield f"--- Load cases to be solved {_RULE}"
     omega, directions = bodies.omega, bodies.directions
@@ -102,7 +104,9 @@ def _force(bodies: WholeBodies, title: str, force: np.ndarray) -> Iterator[str]:
 
 def _motions(bodies: WholeBodies) -> list[tuple[int, int]]:
     """Numbers of body and motion, from 1."""
-    return [(body, motion) for body in range(1, len(bodies.bodies) + 1) for motion in range(1, 7)]
+    return [
+        (number, motion) for number, body in enumerate(bodies.bodies, 1) for motion in range(1, len(body.motions) + 1)
+    ]
 
 
 def _row(values: np.ndarray | list[float]) -> str:

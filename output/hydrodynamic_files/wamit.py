@@ -1,13 +1,17 @@
-"""Numeric output files of WAMIT: ``.1`` added mass and damping, ``.3`` excitation, ``.4`` motions, ``.hst`` stiffness.
+"""Numeric output files of WAMIT: ``.1`` added mass and damping, ``.3`` excitation, ``.4`` motions, ``.hst`` stiffness,
+and of elastic bodies ``.mmx``, their mass and bending stiffness, and ``.cfg``, the numbers of their modes.
 
     .1      PER I J  A/(ρLᵏ)  B/(ρωLᵏ)           PER = −1 at ω = 0 and 0 at ω = ∞, both without B
     .3      PER BETA I  |X| arg X Re X Im X      X/(ρgLᵐ) per unit elevation, degrees
     .4      PER BETA I  |ξ| arg ξ Re ξ Im ξ      ξ/Lⁿ per unit elevation
     .hst    I J  C/(ρgLᵏ)
+    .mmx    I J  M B K                           in SI units, below two lines of text
+    .cfg    NEWMDS(n) = modes of body n beyond the six rigid motions
 
 with L = 1 m. WAMIT's time factor is e^{iωt}: complex numbers are the conjugates of those of e^{−iωt}, and phases are
-relative to a wave whose crest is at x = 0 at t = 0. Motions of body n are 6(n − 1) + 1 to 6n, in the frame of each body
-at its centre of gravity (XBODY). Source: WAMIT user manual, § 4; J. Jonkman's reader in OpenFAST for the limits of PER.
+relative to a wave whose crest is at x = 0 at t = 0. A body has six motions, in its frame at its centre of gravity
+(XBODY), and its NEWMDS modes; those of the next body are counted on from there. Sources: WAMIT user manual, § 4 and 9;
+J. Jonkman's reader in OpenFAST for the limits of PER; WEC-Sim, readWAMIT.m, for ``.mmx`` and ``.cfg``.
 """
 
 from __future__ import annotations
@@ -41,9 +45,12 @@ def write_wamit(bodies: WholeBodies, folder: Path, name: str) -> None:
         "hst": (
             f"{i + 1:6d}{j + 1:6d}{_number(value / (bodies.density * bodies.gravity))}"
             for (i, j), value in np.ndenumerate(bodies.stiffness)
-            if i // 6 == j // 6
+            if any(own.start <= i < own.stop and own.start <= j < own.stop for own in bodies.spans)
         ),
     }
+    if any(body.modes for body in bodies.bodies):
+        files["cfg"] = (f"NEWMDS({number})={len(body.modes)}" for number, body in enumerate(bodies.bodies, 1))
+        files["mmx"] = _external(bodies)
     for kind, lines in files.items():
         text = "".join(f"{line}\n" for line in lines)
         if text:
@@ -62,6 +69,13 @@ def _radiation(bodies: WholeBodies) -> Iterator[str]:
         for i, j in _entries(bodies):
             values = _number(mass[i, j] / bodies.density) + _number(damping[i, j] / (bodies.density * omega))
             yield f"{_number(2.0 * np.pi / omega)}{i + 1:6d}{j + 1:6d}{values}"
+
+
+def _external(bodies: WholeBodies) -> Iterator[str]:
+    yield "External force matrices:"
+    yield "     I     J         M(I,J)            B(I,J)            K(I,J)"
+    for (i, j), mass in np.ndenumerate(bodies.inertia):
+        yield f"{i + 1:6d}{j + 1:6d}{_number(mass)}{_number(0.0)}{_number(bodies.bending_stiffness[i, j])}"
 
 
 def _entries(bodies: WholeBodies) -> Iterator[tuple[int, int]]:

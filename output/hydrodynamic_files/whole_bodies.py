@@ -1,17 +1,24 @@
-"""Hydrodynamics of whole rigid bodies with six motions each, as the files of other programs hold them.
+"""Hydrodynamics of whole bodies with six motions each and the modes of beams, as the files of other programs hold them.
 
 x along the waves, z upwards from the still level, x = 0 where the crest of the incident wave is at t = 0, time factor
 e^{−iωt}; motions surge, sway, heave, roll, pitch, yaw, rotations about the centre of gravity, right-handed. A section
 of some width has surge (its sway), heave and pitch (its roll, which is anticlockwise, with the opposite sign). A solid
 of revolution, whose pitch lifts its side of x > 0 too, has the same in the plane y = 0, and what it has there in
 surge and pitch it has in the plane x = 0 in sway and roll. What is not modelled is zero.
+
+A beam has heave and pitch, and after the six motions one more for each hinge and each elastic mode, with deflections W
+upwards, ∫W² dx = l. Its heave and pitch are those about its centre of gravity: with pitch a √3 (2x/l − 1) of its own,
+whose slope is 2√3 a/l, the angle θ upwards to the right and the heave ζ of a centre at x = l/2 + d are
+
+    a = θ l/(2√3),    heave of the middle ζ − θ d.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
+from itertools import pairwise
+from math import degrees, sqrt
 
 import numpy as np
 
@@ -37,6 +44,7 @@ class WholeBody:
         centre_of_buoyancy: (x, y, z), m.
         volume: displaced volume, m³.
         waterplane_area: m².
+        modes: names of what moves beyond the six motions.
     """
 
     name: str
@@ -44,16 +52,22 @@ class WholeBody:
     centre_of_buoyancy: tuple[float, float, float]
     volume: float
     waterplane_area: float
+    modes: tuple[str, ...] = ()
+
+    @property
+    def motions(self) -> tuple[str, ...]:
+        """All motions."""
+        return (*MOTIONS, *self.modes)
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotionsInWaves:
-    """Motions of free bodies per unit elevation. Shapes: n frequencies, N bodies.
+    """Motions of free bodies per unit elevation. Shapes: n frequencies, m motions.
 
     Attributes:
         omega: (n,) rad/s.
         direction: in which the waves travel, degrees.
-        amplitudes: (n, 6N) m/m, rad/m.
+        amplitudes: (n, m) m/m, rad/m.
     """
 
     omega: Floats
@@ -63,26 +77,27 @@ class MotionsInWaves:
 
 @dataclass(frozen=True, kw_only=True)
 class WholeBodies:
-    """Hydrodynamics of N bodies, SI units. Shapes: n frequencies, d directions, t times.
+    """Hydrodynamics of some bodies, SI units. Shapes: n frequencies, m motions of all, d directions, t times.
 
     Attributes:
         density: kg/m³.
         gravity: m/s².
         depth: m; may be infinite.
         bodies: the bodies.
-        modelled: (6N,) whether a motion is modelled.
+        modelled: (m,) whether a motion is modelled.
         omega: (n,) rad/s, ascending, positive and finite.
-        added_mass: (n, 6N, 6N) force by motion.
-        radiation_damping: (n, 6N, 6N).
-        limits: added mass at ω = 0 and at ω = ∞, each (6N, 6N) or ``None``.
+        added_mass: (n, m, m) force by motion.
+        radiation_damping: (n, m, m).
+        limits: added mass at ω = 0 and at ω = ∞, each (m, m) or ``None``.
         directions: (d,) in which waves travel, degrees.
-        froude_krylov_force: (n, d, 6N) per unit elevation.
-        diffraction_force: (n, d, 6N).
-        stiffness: (6N, 6N) of hydrostatics and weight.
-        inertia: (6N, 6N) of the bodies.
+        froude_krylov_force: (n, d, m) per unit elevation.
+        diffraction_force: (n, d, m).
+        stiffness: (m, m) of hydrostatics and weight.
+        bending_stiffness: (m, m) of elastic bodies.
+        inertia: (m, m) of the bodies.
         motions: of free bodies in waves.
         impulse_times: (t,) s; ``None`` without impulse responses.
-        impulse_response: (t, 6N, 6N) K; ``None`` without.
+        impulse_response: (t, m, m) K; ``None`` without.
     """
 
     density: float
@@ -98,14 +113,25 @@ class WholeBodies:
     froude_krylov_force: Complexes
     diffraction_force: Complexes
     stiffness: Floats
+    bending_stiffness: Floats
     inertia: Floats
     motions: tuple[MotionsInWaves, ...]
     impulse_times: Floats | None
     impulse_response: Floats | None
 
     @property
+    def spans(self) -> tuple[slice, ...]:
+        """Places of the motions of each body."""
+        return _spans(self.bodies)
+
+    @property
+    def names(self) -> tuple[tuple[int, str], ...]:
+        """Number of the body from 0, and name, of each motion."""
+        return tuple((index, motion) for index, body in enumerate(self.bodies) for motion in body.motions)
+
+    @property
     def excitation_force(self) -> Complexes:
-        """(n, d, 6N) per unit elevation."""
+        """(n, d, m) per unit elevation."""
         return self.froude_krylov_force + self.diffraction_force
 
 
@@ -120,29 +146,26 @@ def bodies_of_tables(
     """Return whole bodies, each a section of some width or a solid of revolution.
 
     Args:
-        tank: open water with one liquid and floats only.
+        tank: open water with one liquid, floats and beams.
         radiation: analyses of radiation, at least one with a frequency that is positive and finite; of several with the
             same frequency the first is taken.
-        response: analyses of the response; those whose motions differ from those of radiation are left out.
-        impulse_response: analyses of impulse responses; the first one is taken.
+        response: analyses of the response; those that lack motions of radiation are left out.
+        impulse_response: analyses of impulse responses, with the motions of radiation; the first one is taken.
         width: of sections, m; 1 of solids.
     """
-    count = 6 * len(tank.bodies)
     dofs = radiation[0].dofs
-    along, across = _Plane(dofs, _ALONG), _Plane(dofs, _ACROSS if tank.geometry.is_revolved else {})
+    bodies = tuple(_at_rest(tank, index, width, radiation[0]) for index in range(len(tank.bodies)))
+    along = _along(tank, bodies, dofs)
+    planes = [along, _signs(bodies, dofs, _ACROSS)] if tank.geometry.is_revolved else [along]
+    modelled = np.any(planes, axis=(0, 1))
 
     def matrix(values: np.ndarray) -> Floats:
-        whole = np.zeros((*values.shape[:-2], count, count))
-        for plane in (across, along):
-            whole[..., plane.places[:, None], plane.places] = (
-                width * values[..., plane.own[:, None], plane.own] * (np.outer(plane.signs, plane.signs))
-            )
+        # Each motion is in one plane.
+        whole: np.ndarray = width * sum(plane.T @ values @ plane for plane in planes)
         return whole
 
-    def vector(values: np.ndarray, scale: float) -> Complexes:
-        whole = np.zeros((*values.shape[:-1], count), dtype=complex)
-        whole[..., along.places] = scale * values * along.signs
-        return whole
+    def vector(values: np.ndarray) -> Complexes:
+        return np.asarray(width * values @ along)
 
     rows = {float(omega): (table, row) for table in reversed(radiation) for row, omega in enumerate(table.omega)}
     omegas = sorted(omega for omega in rows if 0.0 < omega < np.inf)
@@ -158,13 +181,16 @@ def bodies_of_tables(
     far = limit(np.inf)
     if far is None and first is not None:
         far = matrix(first.infinite_frequency_added_mass)
-    modelled = np.zeros(count, dtype=bool)
-    modelled[[*along.places, *across.places]] = True
+    # Hydrostatics are ρg∫W² of any deflection W; what is more is bending.
+    elastic = [dof.is_elastic for dof in dofs]
+    weight = tank.layers[0].density * tank.gravity
+    areas = [(end - start) for start, end in (tank.bodies[(dof.body or 1) - 1].waterplane for dof in dofs)]
+    bending = np.diag((np.diag(radiation[0].stiffness) - weight * np.array(areas)) * elastic)
     return WholeBodies(
         density=tank.layers[0].density,
         gravity=tank.gravity,
         depth=tank.layers[0].depth,
-        bodies=tuple(_at_rest(tank, index, width) for index in range(len(tank.bodies))),
+        bodies=bodies,
         modelled=modelled,
         omega=np.array(omegas),
         added_mass=matrix(stacked("added_mass")),
@@ -172,35 +198,61 @@ def bodies_of_tables(
         limits=(limit(0.0), far),
         directions=np.degrees(DIRECTIONS),
         # There is one wave in one liquid.
-        froude_krylov_force=vector(stacked("froude_krylov_force")[:, 0], width),
-        diffraction_force=vector(stacked("diffraction_force")[:, 0], width),
-        stiffness=matrix(radiation[0].stiffness),
+        froude_krylov_force=vector(stacked("froude_krylov_force")[:, 0]),
+        diffraction_force=vector(stacked("diffraction_force")[:, 0]),
+        stiffness=matrix(radiation[0].stiffness - bending),
+        bending_stiffness=matrix(bending),
         inertia=matrix(radiation[0].inertia),
         motions=tuple(
             MotionsInWaves(
                 omega=table.omega,
                 direction=degrees(DIRECTIONS[0 if table.waves_from == "left" else 1]),
-                amplitudes=vector(table.amplitudes[:, 0], 1.0),
+                amplitudes=table.amplitudes[:, 0, [table.dofs.index(dof) for dof in dofs]] @ np.linalg.pinv(along).T,
             )
             for table in response
-            if table.dofs == dofs
+            if set(dofs) <= set(table.dofs)
         ),
         impulse_times=None if first is None else first.times,
         impulse_response=None if first is None else matrix(first.impulse_response),
     )
 
 
-class _Plane:
-    """The motions in a vertical plane: their indices `own` among all, `places` among six of each body, and `signs`."""
+def _along(tank: Tank, bodies: tuple[WholeBody, ...], dofs: tuple[Dof, ...]) -> np.ndarray:
+    """Motions of the tables by a unit of each motion of the files, in the plane y = 0, shape (dofs, m)."""
+    plane = _signs(bodies, dofs, _ALONG)
+    pitch = MOTIONS.index("Pitch")
+    for row, dof in enumerate(dofs):
+        index = (dof.body or 1) - 1
+        body, at = bodies[index], _spans(bodies)[index].start
+        if dof.motion.capitalised in body.modes:
+            plane[row, at + body.motions.index(dof.motion.capitalised)] = 1.0
+        elif index in tank.beams:
+            # A pitch to the right is a negative slope.
+            left, right = tank.beams[index].waterplane
+            off = body.centre_of_gravity[0] + tank.phase_at - 0.5 * (left + right)
+            plane[row, at + pitch] = off if dof.motion == "heave" else (left - right) / (2.0 * sqrt(3.0))
+    return plane
 
-    def __init__(self, dofs: tuple[Dof, ...], motions: dict[str, tuple[int, float]]) -> None:
-        self.own = np.array([place for place, dof in enumerate(dofs) if dof.motion in motions], dtype=int)
-        chosen = [dofs[place] for place in self.own]
-        self.places = np.array([6 * ((dof.body or 1) - 1) + motions[dof.motion][0] for dof in chosen], dtype=int)
-        self.signs = np.array([motions[dof.motion][1] for dof in chosen])
+
+def _signs(bodies: tuple[WholeBody, ...], dofs: tuple[Dof, ...], motions: dict[str, tuple[int, float]]) -> np.ndarray:
+    """The same of rigid motions, by place and sign, shape (dofs, m)."""
+    spans = _spans(bodies)
+    plane = np.zeros((len(dofs), spans[-1].stop))
+    for row, dof in enumerate(dofs):
+        if dof.motion in motions:
+            place, sign = motions[dof.motion]
+            plane[row, spans[(dof.body or 1) - 1].start + place] = sign
+    return plane
 
 
-def _at_rest(tank: Tank, index: int, width: float) -> WholeBody:
+def _spans(bodies: tuple[WholeBody, ...]) -> tuple[slice, ...]:
+    ends = np.cumsum([0, *(len(body.motions) for body in bodies)]).tolist()
+    return tuple(slice(first, last) for first, last in pairwise(ends))
+
+
+def _at_rest(tank: Tank, index: int, width: float, radiation: RadiationTable) -> WholeBody:
+    if index in tank.beams:
+        return _beam_at_rest(tank, index, width, radiation)
     rest = tank.floats[index].hydrostatics
 
     def point(at: tuple[float, float]) -> tuple[float, float, float]:
@@ -212,4 +264,21 @@ def _at_rest(tank: Tank, index: int, width: float) -> WholeBody:
         centre_of_buoyancy=point(rest.centroids[0]),
         volume=width * rest.areas[0],
         waterplane_area=width * rest.heave_stiffness / (tank.layers[0].density * tank.gravity),
+    )
+
+
+def _beam_at_rest(tank: Tank, index: int, width: float, radiation: RadiationTable) -> WholeBody:
+    """A beam has no draught; it displaces its mass."""
+    own = {str(dof.motion): row for row, dof in enumerate(radiation.dofs) if (dof.body or 1) - 1 == index}
+    left, right = tank.beams[index].waterplane
+    mass, moment = (float(radiation.inertia[own["heave"], own[name]]) for name in ("heave", "pitch"))
+    # ∫ m √3 (2x/l − 1) dx over ∫ m dx.
+    centre = 0.5 * (left + right) + moment / mass * (right - left) / (2.0 * sqrt(3.0)) - tank.phase_at
+    return WholeBody(
+        name=f"body_{index + 1}",
+        centre_of_gravity=(centre, 0.0, 0.0),
+        centre_of_buoyancy=(centre, 0.0, 0.0),
+        volume=width * mass / tank.layers[0].density,
+        waterplane_area=width * (right - left),
+        modes=tuple(Dof(motion).capitalised for motion in own if motion not in ("heave", "pitch")),
     )

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from math import pi
 from typing import Any
 
+from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import (
     DecayTable,
     RadiationTable,
     ResonanceTable,
-    SpectrumTable,
     UnresolvedPeak,
 )
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
@@ -291,6 +291,11 @@ def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
     )
     for group, title, lines in (
         (responses, "Responses to irregular waves", about),
+        (
+            SPECTRUM["air_gaps"],
+            "Air gaps: elevation of the water less the motion of the point, and the smallest height above it",
+            (f"Most probable largest and smallest values in {table.duration:g} s, linear in the waves.",),
+        ),
         (
             plates,
             "Moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",

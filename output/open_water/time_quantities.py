@@ -59,6 +59,7 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
     _joined("wave_phase", "phase of an incident wave", "component", unit="rad",
         note="its crest passes the middle of the first body at t = phase/ω"),
     Quantity("ramp", "time in which the waves grow", "s", variable=""),
+    _joined("initial", "displacement at t = 0", "dof", variable="motion_initial", **_MOTION),
     _joined("elevation", "elevation of the incident waves at the middle of the first body", "motion_time", unit="m",
         symbol="η", shown=".4g", variable="wave_elevation"),
     _joined("displacement", "motion in waves", "motion_time dof", variable="motion_displacement", column="",

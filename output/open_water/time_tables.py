@@ -59,24 +59,25 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
 
 
 def _motion(table: MotionTable) -> Section:
+    shown_keys = ("times", *(("elevation",) if len(table.wave_omega) else ()), "displacement")
     shown, thinned = shown_rows(len(table.times), "times", "motion.csv")
     columns = [
         column
         for column in open_columns(MOTION, table)
-        if column.quantity.key in ("times", "elevation", "displacement") and column.places.get("dof", 0) < _MOST_MOTIONS
+        if column.quantity.key in shown_keys and column.places.get("dof", 0) < _MOST_MOTIONS
     ]
+    about = "η is that of the incident waves at the middle of the first body. " if len(table.wave_omega) else ""
     sizes = "; ".join(
         f"{dof.words} {deviation:.4g} and {largest:.4g} {'rad' if dof.is_rotation else 'm'}"
         for dof, deviation, largest in zip(table.dofs, table.standard_deviation, table.largest, strict=True)
     )
     return Section(
-        title=f"Motion from rest in waves from the {table.waves_from}",
+        title=f"Motion {table.beginning}",
         headings=headings_of(columns, "dof"),
         rows=rows_of(MOTION, columns, shown),
         lines=(
             *thinned,
             f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",
-            f"η is that of the incident waves at the middle of the first body. Estimated error relative to the largest "
-            f"motion {table.relative_error:.1e}.",
+            f"{about}Estimated error relative to the largest motion {table.relative_error:.1e}.",
         ),
     )

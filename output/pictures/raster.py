@@ -56,18 +56,17 @@ class Raster:
         """The number of the triangle at the middle of each pixel, or −1; shape (height, width)."""
         width, height = self.size
         owners = np.full(width * height, -1, dtype=np.intp)
-        # Middles of pixels at whole numbers.
+        # Middles of pixels at whole numbers; corners of each triangle from the uppermost down.
         corners = (self.points - 0.5)[self.triangles]
-        low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
-        triangle, row = _ranges(low, high, height)
-        start, end = corners[triangle], np.roll(corners, -1, axis=1)[triangle]
-        level = np.clip(row, low[triangle], high[triangle])[:, None]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            part = (level - start[:, :, 1]) / (end[:, :, 1] - start[:, :, 1])
-            crossing = start[:, :, 0] + part * (end[:, :, 0] - start[:, :, 0])
-        crosses = (part >= 0.0) & (part <= 1.0)
-        left = np.where(crosses, crossing, np.inf).min(axis=1)
-        right = np.where(crosses, crossing, -np.inf).max(axis=1)
+        corners = np.take_along_axis(corners, np.argsort(corners[:, :, 1], axis=1)[:, :, None], axis=1)
+        (x, y), spans = corners.transpose(2, 1, 0), np.diff(corners, axis=1, append=corners[:, :1]).transpose(2, 1, 0)
+        slopes = spans[0] / np.where(spans[1] == 0.0, np.inf, spans[1])
+        triangle, row = _ranges(y[0], y[2], height)
+        level = np.clip(row, y[0, triangle], y[2, triangle])
+        # The edge from the last corner to the first one passes all rows, each of the others some.
+        edge = (level >= y[1, triangle]).astype(np.intp)
+        one, other = (x[side, triangle] + slopes[side, triangle] * (level - y[side, triangle]) for side in (edge, 2))
+        left, right = np.minimum(one, other), np.maximum(one, other)
         stroke, column = _ranges(left, right, width)
         owners[row[stroke] * width + column] = triangle[stroke]
         return owners.reshape(height, width)
@@ -119,10 +118,10 @@ class Raster:
         width, height = self.size
         owners, starts, lengths = self._runs
         along, across, up = planes[owners].T
-        shade = np.repeat(across, lengths)
-        shade *= np.tile(np.arange(width) + 0.5, height)
-        shade += np.repeat(along + up * (starts // width + 0.5), lengths)
-        image = shades.take(shade.astype(np.intp), mode="clip")
+        shade = np.repeat(across, lengths).reshape(height, width)
+        shade *= np.arange(width) + 0.5
+        shade += np.repeat(along + up * (starts // width + 0.5), lengths).reshape(height, width)
+        image = shades[np.clip(shade, 0.0, len(shades) - 1.0, out=shade).astype(np.intp)]
         return image.view(np.uint8).reshape(height, width, 4)
 
 

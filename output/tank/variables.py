@@ -118,7 +118,9 @@ def _matrices(solution: TankSolution) -> Iterator[Variable]:
     masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
     places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
     inertia = block_diag(*(np.diag(body.inertia[place]) for body, place in zip(floats, places, strict=True)))
-    stiffness = block_diag(*(body.stiffness[np.ix_(place, place)] for body, place in zip(floats, places, strict=True)))
+    stiffness = block_diag(
+        *(body.hydrostatics.stiffness[np.ix_(place, place)] for body, place in zip(floats, places, strict=True))
+    )
     matrices = [(_MASSES, inertia * masses), (_STIFFNESS, stiffness * masses * units.frequency**2)]
     if solution.added_mass is not None:
         matrices.append((_ADDED, solution.added_mass.matrix * masses))

@@ -13,7 +13,7 @@ from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank
 from hydroelastic.physics.obstacles import VerticalBaffle
 from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
-from hydroelastic.scenes.level_tank.solve import require_treated
+from hydroelastic.scenes.level_tank.solve import misplacements, require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 
@@ -31,7 +31,7 @@ def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
         scene: a validated scene; nothing is solved.
 
     Raises:
-        SceneError: if no solver takes it.
+        SceneError: if no solver takes it, or its parts do not fit together.
     """
     require_treated(scene)
     tank = physical_level_tank(scene)
@@ -185,7 +185,8 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     resolution = volume_resolution(tank, tolerance, modes, mirrors)
     try:
         sizes = with_refinements(tank, resolution.sizes, mirrors)
-        made = unfolded_volume(tank, sizes, mirrors)
+        with misplacements():
+            made = unfolded_volume(tank, sizes, mirrors)
     except MeshError as error:
         yield f"The volume cannot be meshed: {error}."
         return
@@ -201,10 +202,11 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     )
     if refinements:
         yield f"  gmsh makes {len(made.noded.cells)}, which all processes refine {refinements} times together."
-    solver = "a factorization" if unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
+    layered = bool(sizes.layers)
+    solver = "a factorization" if layered or unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
     free = free_memory()
     there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
-    needed = memory_needed(unknowns, resolution.degree) / 2**30
+    needed = memory_needed(unknowns, resolution.degree, factorized=layered) / 2**30
     yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
     shown = "The decay of ψ with the degree" if resolution.degree > 2 else "What the third degree adds to ψ"
     yield f"  {shown}, and the volume of curved cells, show the error; where it is too large"

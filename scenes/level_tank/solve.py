@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -58,7 +60,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     """Solve a tank in three dimensions and estimate it (collective).
 
     Raises:
-        SceneError: if no solver takes its plan and plates.
+        SceneError: if no solver takes its plan and plates, or its parts do not fit together.
         UnsolvedError: if the eigen-solver fails.
     """
     require_treated(scene)
@@ -75,9 +77,10 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
             exact = exact_frequencies(physical, scene.accuracy.modes)
             estimates = plate_estimates(physical)
     try:
-        solution = solve_smallest_model(
-            physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
-        )
+        with misplacements():
+            solution = solve_smallest_model(
+                physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
+            )
     except (EigenSolverError, MeshError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
     return SolvedLevelTank(
@@ -102,6 +105,22 @@ def require_treated(scene: LevelTankScene) -> None:
         level_model(physical_level_tank(scene))
     except NotTreatedError as error:
         raise SceneError(Problem(key="[[body]]", wrong=str(error), allowed=TREATED), file=None) from error
+
+
+@contextmanager
+def misplacements() -> Iterator[None]:
+    """Turn what only the making of a volume shows, such as a baffle beside the tank, into an error of the scene.
+
+    Raises:
+        SceneError: if parts of the tank do not fit together.
+    """
+    from hydroelastic.meshes.tagged_mesh import MisplacedError
+
+    try:
+        yield
+    except MisplacedError as error:
+        remedy = "Move it, or change its size"
+        raise SceneError(Problem(key="[tank]", wrong=str(error), remedy=remedy), file=None) from error
 
 
 TREATED = (

@@ -15,6 +15,8 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.models.time_analyses import ImpulseResponse
 
 _ROUNDING = 1e-9
+# Analyses whose numbers of modes the files have.
+_OF_MODES = (Radiation, ImpulseResponse)
 
 
 def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -32,9 +34,15 @@ def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
     )
     if not scene.is_open:
         yield problem_at(("export",), None, "a tank with walls has no waves", remedy="Leave it out")
-    elif scene.beams or scene.plates:
-        elastic = "beam" if scene.beams else "plate"
-        yield problem_at(("export",), None, f"the files are those of rigid bodies, and a {elastic} is elastic")
+    elif scene.plates:
+        yield problem_at(("export",), None, "the files are those of rigid bodies and beams, and a plate is neither")
+    elif scene.beams and len({one.elastic_modes for one in scene.analysis if isinstance(one, _OF_MODES)}) > 1:
+        yield problem_at(
+            ("export",),
+            None,
+            "the analyses of radiation and impulse responses have different elastic_modes",
+            remedy="Give them the same",
+        )
     elif len(scene.layers) > 1:
         yield problem_at(("export",), None, "the files are those of bodies in one liquid, and there are two")
     elif len(omega) < 2:

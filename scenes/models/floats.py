@@ -7,6 +7,9 @@ from functools import lru_cache
 from math import sqrt
 from pathlib import Path
 
+import numpy as np
+
+from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.contours import Contour
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.hulls import Hull
@@ -16,6 +19,7 @@ from hydroelastic.physics.point_contours import outline_contour, polygon_contour
 from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, float_profile, profile_contour
 from hydroelastic.physics.revolution import SolidOfRevolution
 from hydroelastic.physics.solids import solid_of_revolution
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.outline_files import read_outline
@@ -96,7 +100,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
         raise TypeError(f"body {index} is not a float")
     level = scene.level_of(body)
     state = (scene.folder / body.file).stat() if body.file is not None else None
-    return _placed(
+    placed = _placed(
         body,
         scene.folder,
         level,
@@ -105,6 +109,19 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
         scene.tank.gravity,
         (state.st_mtime_ns, state.st_size) if state is not None else None,
     )
+    own = [one for one in scene.attachment if one.body == index + 1]
+    return placed if scene.is_open or not own else replace(placed, springs=_springs(placed, own))
+
+
+def _springs(placed: RigidFloat, attachments: list[Attachment]) -> Matrix:
+    """Stiffness of springs to the ground for heave, sway and roll about the centre of mass of a float."""
+    total, centre = np.zeros((3, 3)), placed.hydrostatics.centre_of_mass
+    for one in attachments:
+        x, y = one.at or centre
+        # Heave, sway and roll of the point by those of the float.
+        path = np.array([[1.0, 0.0, x - centre[0]], [0.0, 1.0, centre[1] - y], [0.0, 0.0, 1.0]])
+        total += path.T @ np.array(one.stiffness) @ path
+    return tuple((float(heave), float(sway), float(roll)) for heave, sway, roll in total)
 
 
 # Cached; the key contains the time of the last change of an outline's file, which may be edited meanwhile.

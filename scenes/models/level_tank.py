@@ -7,6 +7,7 @@ from itertools import combinations
 from math import hypot, isfinite
 from typing import Any, TypeAlias
 
+import numpy as np
 from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
@@ -157,8 +158,15 @@ def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetail
         (low, high), (lower, upper) = _plan_bounds(plan)
         rise = abs(bed.slope[0]) * max(high - x, x - low) + abs(bed.slope[1]) * max(upper - y, y - lower)
     else:
-        heights = [height for _, _, height in bed_points(scene)]
-        rise = max(heights) - min(heights)
+        points = np.array(bed_points(scene))
+        places, heights = points[:, :2], points[:, 2]
+        wrong = "two of its points are in one place" if len(np.unique(places, axis=0)) < len(places) else ""
+        if np.linalg.matrix_rank(places - places[0]) < 2:
+            wrong = "its points lie on a line"
+        if wrong:
+            yield problem_at(("tank", "bed"), None, wrong, allowed="different places over all of the plan")
+            return
+        rise = float(np.ptp(heights))
     if rise > depth * (1.0 - LEAST_DEPTH):
         yield problem_at(
             ("tank", "bed"),

@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
-    BeforeValidator,
     Discriminator,
     Field,
     SerializerFunctionWrapHandler,
     Strict,
     Tag,
     model_serializer,
-    model_validator,
 )
 
 from hydroelastic.fem.open_water.requests import (
@@ -21,18 +19,16 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
-from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.sea_states import Spectrum
-from hydroelastic.scenes.models.time_analyses import ImpulseResponse, Motion
+from hydroelastic.scenes.models.time_analyses import Displacement, ImpulseResponse, Motion
 from hydroelastic.scenes.models.values import (
     DISTINCT,
     MOST_VALUES,
     OR_SWEEP,
     ElasticModes,
     NumberFromZero,
-    OrElse,
     kind_of,
 )
 
@@ -48,11 +44,21 @@ class Radiation(SceneModel):
         description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit of infinite frequency"
     )
     elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam are reported")
+    fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
+        default=(),
+        description="frequencies, rad/s, at which fields of sections are written and drawn; by default where the "
+        "damping of each motion is largest",
+    )
 
     @property
     def request(self) -> RadiationRequest:
         """What the solver is asked for."""
-        return RadiationRequest(omega=self.omega, elastic_modes=self.elastic_modes)
+        return RadiationRequest(omega=self.omega, elastic_modes=self.elastic_modes, fields_at=self.fields_at)
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialize without frequencies of fields that are not given."""
+        return {key: value for key, value in write(self).items() if key != "fields_at" or value}
 
 
 class Response(SceneModel):
@@ -73,7 +79,8 @@ class Response(SceneModel):
     )
     fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
         default=(),
-        description="frequencies, rad/s, at which fields are written and drawn; by default where a motion is largest",
+        description="frequencies, rad/s, at which fields of sections are written and drawn; by default where a motion "
+        "is largest",
     )
 
     @property
@@ -115,34 +122,11 @@ class Resonance(SceneModel):
         return ResonanceRequest(count=self.count, below=self.below, largest_damping=self.largest_damping)
 
 
-class Release(SceneModel):
-    """Displacement from which a float is released at rest."""
-
-    heave: AnyNumber = Field(default=0.0, description="upwards, m")
-    roll: AnyNumber = Field(default=0.0, description="of a section, anticlockwise, rad")
-    pitch: AnyNumber = Field(default=0.0, description="of a solid, with its top towards −x, rad")
-
-    @model_validator(mode="after")
-    def _is_somewhere(self) -> Release:
-        if self.heave == self.roll == self.pitch == 0.0:
-            raise problem("the float is released from its equilibrium", allowed="a heave or a roll other than 0")
-        return self
-
-    @model_serializer(mode="wrap")
-    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if key != "pitch" or value}
-
-
-def _as_heave(value: Any) -> Any:
-    """A number without a name is a heave."""
-    return {"heave": value} if not isinstance(value, dict | Release) else value
-
-
 class Decay(SceneModel):
     """The motion of a released float."""
 
     kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
-    displacement: Annotated[Release, BeforeValidator(_as_heave), OrElse({"type": "number"})] = Field(
+    displacement: Displacement = Field(
         description="displacement from which the float is released: heave in m, or a table {heave, roll} in m and rad"
     )
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(

@@ -156,6 +156,14 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
+        if getattr(analysis, "fields_at", ()):
+            yield problem_at(
+                ("analysis", index, "fields_at"),
+                None,
+                "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
+                "motion is largest",
+                remedy="Leave it out",
+            )
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
             yield problem_at(
                 ("analysis", index, "largest_damping"),
@@ -178,28 +186,30 @@ def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetai
 
 
 def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield the decay analyses of bodies that are not floats, or of motions that the float does not have."""
+    """Yield releases of bodies that are not floats, or in motions that the float does not have."""
     for index, analysis in enumerate(scene.analysis):
-        if not isinstance(analysis, Decay):
+        released = analysis.displacement if isinstance(analysis, Decay | Motion) else None
+        if not isinstance(analysis, Decay | Motion) or released is None:
             continue
+        which = analysis.body or 1
         numbers = [str(number + 1) for number, _ in scene.floats]
-        body = scene.body[analysis.body - 1] if analysis.body <= len(scene.body) else None
+        body = scene.body[which - 1] if which <= len(scene.body) else None
         if not isinstance(body, AnyFloat):
             what = "there is no body of that number" if body is None else "it is a beam, and only floats are released"
             yield problem_at(
                 ("analysis", index, "body"),
-                analysis.body,
+                which,
                 what,
                 allowed=" or ".join(numbers) if numbers else "none: this scene has no float",
             )
             continue
         for motion in ("heave", "roll", "pitch"):
-            value = getattr(analysis.displacement, motion)
+            value = getattr(released, motion)
             if value != 0.0 and motion not in body.motions:
                 yield problem_at(
                     ("analysis", index, "displacement", motion),
                     value,
-                    f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
+                    f"[[body]] number {which} does not move so: its motions are {', '.join(body.motions)}",
                     remedy=f'Add "{motion}" to its motions, or release it from another displacement',
                 )
 
@@ -221,7 +231,7 @@ def drag_is_heeded(scene: TankParts) -> Iterator[InitErrorDetails]:
                 ("analysis", index, "kind") if scene.analysis else ("analysis",),
                 analysis.kind,
                 "a free motion with quadratic damping is not a sum of exponentials",
-                remedy="Leave out quadratic_damping, or ask for a response or a spectrum",
+                remedy='Leave out quadratic_damping, or ask for kind = "motion" with a displacement',
             )
 
 

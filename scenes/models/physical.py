@@ -36,7 +36,8 @@ def physical_tank(scene: TankParts) -> Tank:
         found,
         start=scene.stretch[0],
         phase_at=scene.phase_at,
-        attachments=tuple(_attachment(scene, one) for one in scene.attachment),
+        # Of closed tanks the floats have the springs.
+        attachments=tuple(_attachment(scene, one) for one in scene.attachment if scene.is_open),
         bed=scene.bed,
     )
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import hypot
+from typing import TYPE_CHECKING
 
+import numpy as np
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import attachments as physics
@@ -13,6 +16,9 @@ from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
+
+if TYPE_CHECKING:
+    from hydroelastic.physics.tank import Tank
 
 
 def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -40,6 +46,34 @@ def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 None,
                 "in some motion it adds power instead of taking it",
                 allowed="a matrix without negative eigenvalues",
+            )
+
+
+def closed_tanks_have_springs_alone(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield attachments of closed tanks that are not springs between a float and the ground."""
+    for index, one in enumerate(() if scene.is_open else scene.attachment):
+        damping = [key for key in ("damping", "quadratic_damping") if np.any(getattr(one, key))]
+        if damping:
+            yield problem_at(
+                ("attachment", index, damping[0]),
+                None,
+                "the modes of a tank with walls are those of a real symmetric problem, which has no damping",
+                allowed="stiffness alone",
+                remedy='Leave it out, or set ends = "open" in [tank], where resonances are complex',
+            )
+        if one.to is not None:
+            yield problem_at(
+                ("attachment", index, "to"),
+                one.to,
+                "in a tank with walls springs hold floats to the ground, not to each other",
+                remedy='Leave it out, or set ends = "open" in [tank]',
+            )
+        if one.body <= len(scene.body) and not isinstance(scene.body[one.body - 1], AnyFloat):
+            yield problem_at(
+                ("attachment", index, "body"),
+                one.body,
+                "in a tank with walls springs hold floats, and this is a beam",
+                remedy='Hold a float, or set ends = "open" in [tank]',
             )
 
 
@@ -98,22 +132,28 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Spectrum):
             continue
-        for number, point in enumerate(analysis.points):
-            where = ("analysis", index, "points", number)
-            if point.body > len(scene.body):
+        moving = [("points", number, point.body, point.at) for number, point in enumerate(analysis.points)]
+        moving += [
+            ("air_gaps", number, gap.body, gap.at)
+            for number, gap in enumerate(analysis.air_gaps)
+            if gap.body is not None
+        ]
+        for key, number, one, at in moving:
+            where = ("analysis", index, key, number)
+            if one > len(scene.body):
                 yield problem_at(
-                    (*where, "body"), point.body, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
+                    (*where, "body"), one, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
                 )
                 continue
-            body = scene.body[point.body - 1]
+            body = scene.body[one - 1]
             is_plate = isinstance(body, SeaPlate)
-            place = abs(point.at[0]) if is_plate else point.at[0]
+            place = abs(at[0]) if is_plate else at[0]
             if not isinstance(body, AnyFloat) and not body.start <= place <= body.end:
                 what, allowed = ("plate", "|x|") if is_plate else ("beam", "x")
                 yield problem_at(
                     (*where, "at"),
                     None,
-                    f"x = {point.at[0]:g} m does not lie on the {what}, [[body]] number {point.body}",
+                    f"x = {at[0]:g} m does not lie on the {what}, [[body]] number {one}",
                     allowed=f"{allowed} from {body.start:g} to {body.end:g} m",
                 )
         low = analysis.spectrum.band[0]
@@ -123,4 +163,58 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 analysis.highest_omega,
                 "hardly any waves are below it",
                 allowed=f"more than {1.1 * low:.4g} rad/s",
+            )
+
+
+def air_gaps_are_over_water(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield points of air gaps that are not above the open part of a free surface within what is drawn."""
+    if not any(analysis.air_gaps for analysis in scene.analysis if isinstance(analysis, Spectrum)):
+        return
+    # Floats at rest need SciPy.
+    from hydroelastic.scenes.models.physical import physical_tank
+
+    tank = physical_tank(scene)
+    level, (low, high) = tank.levels_from_top[0], scene.stretch
+    for index, analysis in enumerate(scene.analysis):
+        for number, gap in enumerate(analysis.air_gaps if isinstance(analysis, Spectrum) else ()):
+            where = ("analysis", index, "air_gaps", number)
+            x = hypot(gap.at[0], gap.across) if scene.is_revolved else gap.at[0]
+            if level.kind != "free":
+                yield problem_at(where, None, "there is no free surface at the top", remedy="Leave air_gaps out")
+            elif gap.across and not scene.is_revolved:
+                yield problem_at(
+                    (*where, "across"),
+                    gap.across,
+                    "a section is the same at any distance across",
+                    remedy="Leave it out; solids of revolution have it",
+                )
+            elif gap.at[1] <= level.height:
+                yield problem_at(
+                    (*where, "at"),
+                    None,
+                    f"y = {gap.at[1]:g} m is not above the still water",
+                    allowed=f"y above {level.height:g} m",
+                )
+            elif not low <= x <= high:
+                yield problem_at(
+                    (*where, "at"),
+                    None,
+                    f"it lies {x:g} m from x = 0, outside what is drawn, within which the waves are known",
+                    allowed=f"{low:g} to {high:g} m",
+                    remedy="Widen drawn of [sea]" if scene.kind == "sea" else "Lengthen the tank",
+                )
+            else:
+                yield from _covered(where, x, tank)
+
+
+def _covered(where: tuple[str | int, ...], x: float, tank: Tank) -> Iterator[InitErrorDetails]:
+    for piece in tank.levels_from_top[0].pieces:
+        thin = piece.start == piece.end == x
+        if piece.body is not None and (thin or piece.start < x < piece.end):
+            reaches = f"which reaches from {piece.start:g} to {piece.end:g} m"
+            yield problem_at(
+                (*where, "at"),
+                None,
+                f"below it there is [[body]] number {piece.body + 1}, {reaches}, and no water",
+                allowed="a point beside it, or at one of its edges",
             )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, Strict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.fem.open_water.requests import SpectrumRequest
+from hydroelastic.fem.open_water.requests import AirGapPoint, SpectrumRequest
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.values import MOST_VALUES
@@ -30,6 +30,16 @@ class SeaPoint(SceneModel):
 
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(default=1, description="number of the body, from 1")
     at: tuple[AnyNumber, AnyNumber] = Field(description="[x, y] of the point at rest, m")
+
+
+class AirGap(SparseModel):
+    """A point over the water, fixed or on a body, of which the smallest height above the waves is asked."""
+
+    at: tuple[AnyNumber, AnyNumber] = Field(description="[x, y] of the point at rest, m, above a free surface")
+    across: AnyNumber = Field(default=0.0, description="its distance from the plane of x and y, m; of solids alone")
+    body: Annotated[int, Strict(), Field(ge=1, le=1000)] | None = Field(
+        default=None, description="number of the body with which it moves, from 1; by default it is fixed"
+    )
 
 
 class Spectrum(SparseModel):
@@ -59,6 +69,9 @@ class Spectrum(SparseModel):
     )
     points: tuple[SeaPoint, ...] = Field(
         default=(), max_length=MOST_POINTS, description=f"up to {MOST_POINTS} points whose motions are reported"
+    )
+    air_gaps: tuple[AirGap, ...] = Field(
+        default=(), max_length=MOST_POINTS, description=f"up to {MOST_POINTS} points whose air gap is reported"
     )
     positions: Annotated[int, Strict(), Field(ge=2, le=MOST_VALUES)] = Field(
         default=51, description="points along each beam at which its loads are reported"
@@ -100,6 +113,9 @@ class Spectrum(SparseModel):
             points=tuple((point.body - 1, point.at) for point in self.points),
             positions=self.positions,
             thickness=self.thickness,
+            air_gaps=tuple(
+                AirGapPoint(at=gap.at, across=gap.across, body=gap.body and gap.body - 1) for gap in self.air_gaps
+            ),
         )
 
     @model_validator(mode="after")

@@ -6,12 +6,15 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
+from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import require_fit
+from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies, closed_tanks_have_springs_alone
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, MeshFile, Tank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -33,6 +36,11 @@ class TankScene(TankParts):
         max_length=MOST_BODIES,
         description=f"up to {MOST_BODIES} bodies, in any order; none for sloshing alone",
     )
+    attachment: tuple[Attachment, ...] = Field(
+        default=(),
+        max_length=MOST_BODIES,
+        description=f"up to {MOST_BODIES} springs and dampers that hold bodies; between walls springs of floats",
+    )
     analysis: tuple[Analysis, ...] = Field(
         default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
     )
@@ -40,12 +48,14 @@ class TankScene(TankParts):
     export: Export | None = Field(default=None, description="files for other programs, of open water")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
 
-    @property
-    def attachment(self) -> tuple[()]:
-        """None: springs and dampers hold bodies in the sea."""
-        return ()
-
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
-        require_fit(self, (*STAGES, (export_is_possible,)))
+        require_fit(
+            self,
+            (
+                (attachments_hold_bodies, closed_tanks_have_springs_alone),
+                *STAGES,
+                (drag_is_heeded, export_is_possible),
+            ),
+        )
         return self

@@ -23,7 +23,7 @@ from hydroelastic.scenes.models.open_checks import (
 )
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.round_plates import SeaPlate
-from hydroelastic.scenes.models.sea_checks import sea_points_lie_on_bodies
+from hydroelastic.scenes.models.sea_checks import air_gaps_are_over_water, sea_points_lie_on_bodies
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 Spanning = TypeVar("Spanning", bound=AnyBeam | SeaPlate)
@@ -354,6 +354,6 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
         floats_are_in_equilibrium,
     ),
     (_groups_are_in_range, *CHECKS_OF_FLOATS_AT_REST),
-    (_model_has_motions,),
+    (_model_has_motions, air_gaps_are_over_water),
 )
 """Each stage is made when those before found nothing, so that one wrong length is one message."""

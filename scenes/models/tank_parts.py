@@ -292,6 +292,6 @@ class TankParts(SceneModel):
 
     @model_serializer(mode="wrap")
     def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out an empty list of analyses, and files for other programs that are not asked for."""
-        idle = ("analysis", "export")
+        """Leave out empty lists, of attachments only in tanks, and files for other programs that are not asked for."""
+        idle = ("analysis", "export", *(("attachment",) if self.kind == "tank" else ()))
         return {key: value for key, value in written(self).items() if key not in idle or value}

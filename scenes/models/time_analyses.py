@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field, Strict, model_validator
+from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer, model_validator
 
 from hydroelastic.fem.open_water.requests import ImpulseResponseRequest, MotionRequest, RegularWave
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel, SparseModel
@@ -17,8 +17,36 @@ from hydroelastic.scenes.models.values import (
     OR_SWEEP,
     ElasticModes,
     NumberFromZero,
+    OrElse,
     ascending_values,
 )
+
+
+class Release(SceneModel):
+    """Displacement from which a float is released at rest."""
+
+    heave: AnyNumber = Field(default=0.0, description="upwards, m")
+    roll: AnyNumber = Field(default=0.0, description="of a section, anticlockwise, rad")
+    pitch: AnyNumber = Field(default=0.0, description="of a solid, with its top towards −x, rad")
+
+    @model_validator(mode="after")
+    def _is_somewhere(self) -> Release:
+        if self.heave == self.roll == self.pitch == 0.0:
+            raise problem("the float is released from its equilibrium", allowed="a heave or a roll other than 0")
+        return self
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if key != "pitch" or value}
+
+
+def _as_heave(value: Any) -> Any:
+    """A number without a name is a heave."""
+    return {"heave": value} if not isinstance(value, dict | Release) else value
+
+
+Displacement: TypeAlias = Annotated[Release, BeforeValidator(_as_heave), OrElse({"type": "number"})]
+"""A release; a number is a heave."""
 
 
 class ImpulseResponse(SceneModel):
@@ -83,7 +111,7 @@ class RandomWaves(SceneModel):
 
 
 class Motion(SparseModel):
-    """Motions over time in waves that begin at t = 0, from rest."""
+    """Motions over time in waves that begin at t = 0, from rest, or after a release with or without waves."""
 
     kind: Literal["motion"] = Field(default="motion", description="kind of the analysis")
     times: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_SWEPT)] = Field(
@@ -95,15 +123,29 @@ class Motion(SparseModel):
     random_waves: RandomWaves | None = Field(
         default=None, description="irregular waves in place of these, a table of a spectrum with a seed"
     )
+    displacement: Displacement | None = Field(
+        default=None,
+        description="displacement from which a float is released at t = 0, as in a decay; without it waves are needed",
+    )
+    body: Annotated[int, Strict(), Field(ge=1, le=1000)] | None = Field(
+        default=None, description="number of the float that is released, from 1; by default the first body"
+    )
     waves_from: Literal["left", "right"] = Field(default="left", description="the side from which waves come")
     ramp: NumberFromZero = Field(default=0.0, description="time in which the waves grow to their height, s")
     elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam move")
 
     @model_validator(mode="after")
     def _has_waves(self) -> Motion:
-        if bool(self.waves) == (self.random_waves is not None):
+        if self.waves and self.random_waves is not None:
             raise problem("it needs waves or random_waves, and not both", remedy="Give one of them")
+        if self.is_in_still_water and self.displacement is None:
+            raise problem("nothing moves the bodies", remedy="Give waves, random_waves, or a displacement")
         return self
+
+    @property
+    def is_in_still_water(self) -> bool:
+        """Whether no waves come."""
+        return not self.waves and self.random_waves is None
 
     @property
     def words(self) -> str:
@@ -115,6 +157,7 @@ class Motion(SparseModel):
     @property
     def request(self) -> MotionRequest:
         """What the solver is asked for."""
+        start = self.displacement
         regular = (RegularWave(**wave.model_dump()) for wave in self.waves)
         return MotionRequest(
             times=self.times,
@@ -122,4 +165,7 @@ class Motion(SparseModel):
             waves_from=self.waves_from,
             ramp=self.ramp,
             elastic_modes=self.elastic_modes,
+            body=(self.body or 1) - 1,
+            heave=start.heave if start else 0.0,
+            roll=(start.roll or start.pitch) if start else 0.0,
         )

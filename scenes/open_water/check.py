@@ -21,6 +21,7 @@ from hydroelastic.scenes.models.open_analyses import (
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
+from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -77,25 +78,25 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
             f"{_span(analysis.omega, 'frequency')} rad/s"
         )
     if isinstance(analysis, Decay):
-        let_go = analysis.displacement
-        motions = [
-            f"{value:g} {unit} in {name}"
-            for name, value, unit in (("heave", let_go.heave, "m"), ("roll", let_go.roll, "rad"))
-            if value
-        ]
-        return f"decay: float {analysis.body} is released at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+        return f"decay: {_release(analysis.body, analysis.displacement)}; {_span(analysis.times, 'time')} s"
     if isinstance(analysis, ImpulseResponse):
         return f"impulse response: of the radiated waves at {_span(analysis.times, 'time')} s"
     if isinstance(analysis, Motion):
-        return (
-            f"motion: from rest in {analysis.words}, from the {analysis.waves_from}; {_span(analysis.times, 'time')} s"
-        )
+        start = "from rest" if analysis.displacement is None else _release(analysis.body or 1, analysis.displacement)
+        waves = "still water" if analysis.is_in_still_water else f"{analysis.words}, from the {analysis.waves_from}"
+        return f"motion: {start} in {waves}; {_span(analysis.times, 'time')} s"
     if isinstance(analysis, Spectrum):
         return (
             f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "
             f"{analysis.waves_from}, {analysis.words}"
         )
     return _resonances(analysis)
+
+
+def _release(body: int, start: Release) -> str:
+    amounts = (("heave", start.heave, "m"), ("roll", start.roll, "rad"), ("pitch", start.pitch, "rad"))
+    motions = " and ".join(f"{value:g} {unit} in {name}" for name, value, unit in amounts if value)
+    return f"float {body} is released at {motions}"
 
 
 def _resonances(analysis: Resonance) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable, SpectrumTable
+from hydroelastic.fem.open_water.irregular_results import SpectrumTable
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.output.open_water.quantities import scattering_width
 from hydroelastic.output.pictures.colours import BLUE
 from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours

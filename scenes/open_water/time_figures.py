@@ -51,7 +51,7 @@ def _draw_impulse_response(table: ImpulseResponseTable, sheets: Sheets, name: st
 def _draw_motion(table: MotionTable, sheets: Sheets, name: str) -> None:
     """The waves, and below them the motions over time, with those without a beginning."""
     groups = by_unit(table.dofs)
-    heading = f"motion from rest in waves from the {table.waves_from}"
+    heading = f"motion {table.beginning}"
     with sheets.sheet(name, heading, width=10.0, height=1.2 + 2.8 * (1 + len(groups))) as figure:
         first, *panels = figure.subplots(1 + len(groups), 1, sharex=True)
         first.plot(table.times, table.elevation, color=GREY)

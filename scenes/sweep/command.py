@@ -34,7 +34,12 @@ from hydroelastic.scenes.read import scene_source
 )
 @set_option
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/<scene name>_sweep.")
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Processes that solve at the same time; default 1.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    default=1,
+    help="Processes that solve at the same time; default 1. Fewer than 300 points of one liquid take one.",
+)
 @click.option("--show", multiple=True, metavar="NAME", help="Quantity to print and draw, a column of sweep.csv.")
 @click.option("--estimates", is_flag=True, help="Make the estimates of older theories at each point too.")
 @click.option("--pictures", is_flag=True, help="Write a result folder with pictures for each point, in points/.")

@@ -77,18 +77,19 @@ def _hash(*texts: str) -> str:
     return sha256("\n".join(texts).encode()).hexdigest()
 
 
-_LAST: dict[str, SharedLiquids] = {}
+LAST: dict[str, SharedLiquids] = {}
+"""The liquids of the last family, by its name."""
 
 
 def liquids_of(family: Family) -> SharedLiquids:
     """Return the liquids of a family, made when it is first asked for; those of the last family only are kept."""
-    if family.name not in _LAST:
+    if family.name not in LAST:
         from hydroelastic.fem.tank.solve import shared_liquids
         from hydroelastic.scenes.models.physical import physical_tank
 
         asked = family.ends[0].accuracy
-        _LAST.clear()
-        _LAST[family.name] = shared_liquids(
+        LAST.clear()
+        LAST[family.name] = shared_liquids(
             [physical_tank(scene) for scene in family.ends], tolerance=asked.tolerance, modes=asked.modes
         )
-    return _LAST[family.name]
+    return LAST[family.name]

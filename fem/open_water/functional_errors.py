@@ -1,0 +1,53 @@
+"""Errors that the mesh leaves in motions, deflections and loads in waves, by the dual problem of each.
+
+A quantity J that is linear in the motions a and the scattered waves ψ, J = m·a + λ∫ρ g ψ over the bodies, as the
+deflection or the bending moment at a point, has the error of the Galerkin method
+
+    J_h − J = λ A_λ(ψ_y − ψ_yh, ψ − ψ_h),    ψ_y = Σ yᵢ ψᵢ,    y = γ + D⁻¹ m,    D = K − iωB − λ(M_b + H),
+
+with the coefficients γ of g in the shapes of the bodies and ψᵢ radiated by a unit of each: A_λ(·, ψ − ψ_h) vanishes on
+the trial functions, D is symmetric, and D δa = λ A_λ(Ψ − Ψ_h, ψ − ψ_h). y are the motions of the free bodies under the
+load of J. Hence |J_h − J| ≤ λ √(E_y E) with the energy errors E_y of ψ_y and E of ψ. In long waves a body follows the
+surface and scatters next to nothing, E is small, and so are the errors of loads, however small the loads are.
+
+The part r of the power of outgoing waves that the ends of the absorbing layer reflect, `OpenModel.reflected`, changes J
+likewise by r λ √(P_y P), P = Σ kN|c|² of the waves of ψ_y and of ψ.
+
+Source: the dual of a goal functional, R. Becker, R. Rannacher, Acta Numerica 10 (2001), § 2.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydroelastic.fem.open_water.frequency import OpenResponse
+
+# Part of λ √(E_y E) that counts away from tips, where errors of cells cancel. Measured on ten beams, 0.03 to 3 waves
+# long: all of it is 4 to 31 times the error.
+_COUNTED = 0.5
+
+
+def functional_errors(response: OpenResponse, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Estimate errors of functionals J in each incident wave away from tips, with the absorbing layer, and at tips
+    (collective).
+
+    Args:
+        response: to waves of c = 1.
+        dual: y of each J, shape (functionals, body unknowns).
+
+    Returns:
+        Both errors of each J, each of shape (functionals, incident).
+    """
+    model, squared = response.model, abs(response.squared)
+    loaded = model.energies_missed(response.potentials(np.zeros((len(dual), len(response.incident))), dual))
+    away, tips = (np.sqrt(np.outer(one, other)) for one, other in zip(loaded, response.missed, strict=True))
+    radiated = response.incidence.amplitudes((response.incidence.pressures - response.equations.radiated) @ dual.T)
+    powers = response.incidence.powers @ np.abs(radiated) ** 2
+    reflected = response.reflected * np.sqrt(np.outer(powers, response.scattered_powers))
+    return squared * (_COUNTED * away + reflected), squared * tips
+
+
+def dual_motions(response: OpenResponse, of_motions: np.ndarray) -> np.ndarray:
+    """Return D⁻¹ m of functionals m·a of the motions, both of shape (functionals, body unknowns)."""
+    dual: np.ndarray = np.linalg.solve(response.equations.dynamic, of_motions.T).T
+    return dual

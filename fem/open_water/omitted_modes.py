@@ -1,0 +1,67 @@
+"""Deflection of beams and round plates in waves in the dry modes that a solution leaves out."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from scipy.special import zeta
+
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.outside import attachment_paths
+
+# Deflection of all omitted dry modes, per mode in use, over the last two amplitudes, where they fall like n⁻⁵: those of
+# beams whose load jumps where a section begins.
+_TAIL = 0.25
+# Power of the wavenumber with which amplitudes of a uniform beam fall.
+_ORDER = 6.0
+
+
+def truncation(solution: OpenResponse) -> float:
+    """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
+
+    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `PlateModes`.
+    """
+    model, motions = solution.model, solution.motions
+    sizes = np.maximum(np.abs(motions).max(axis=1, initial=0.0), np.finfo(float).tiny)
+    omitted = [omitted_deflection(solution, index) / sizes for index in model.basin.tank.beams]
+    no_drag = np.zeros((len(motions), len(model.outside.drag)))
+    omitted += [modes.of(solution, motions, no_drag).omitted for modes in model.plate_modes.values()]
+    return max((float(one.max()) for one in omitted), default=0.0)
+
+
+def omitted_deflection(solution: OpenResponse, index: int) -> np.ndarray:
+    """Largest deflection of a beam in the omitted dry modes in each wave, shape (incident,).
+
+    Shapes of a uniform beam with free ends, whose fourth derivative is κ⁴W, take parts of a smooth load that fall
+    like κ⁻²: their amplitudes fall like κ⁻⁶, κₙ l = (n − ½)π, in even and in odd ones alike. |W| = 2 at the ends.
+    """
+    model, tank = solution.model, solution.model.basin.tank
+    first, count = sum(body.size for body in model.pencil.bodies[:index]), model.pencil.bodies[index].size
+    last = np.abs(solution.motions[:, first + max(count - 2, 0) : first + count])
+    if not tank.beams[index].is_uniform:
+        tail = _TAIL * count * last.max(axis=1)
+    else:
+        numbers = np.arange(count - 2, count) - 0.5
+        tail = 2.0 * last @ ((0.5 * numbers) ** _ORDER * zeta(_ORDER, 1.0 + 0.5 * numbers))
+    omega = float(np.sqrt(solution.squared.real))
+    return np.asarray(tail + [_tail_of_attachments(motions, model, index, omega) for motions in solution.motions])
+
+
+def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:
+    """Deflection of a beam in the omitted dry modes by the forces F and moments C of springs and dampers at points.
+
+    Σ_{n>N} Wₙ (F Wₙ + C Wₙ′)/(EI κₙ⁴ l) with |Wₙ| ≤ √2 and κₙ = nπ/l is less than 2 (F l³/(3π⁴N³) + C l²/(2π³N²))/EI.
+    """
+    attachments, (tank, bodies) = model.attachments, (model.basin.tank, model.pencil.bodies)
+    beam, count, found = tank.beams[index], bodies[index].size, 0.0
+    for one, path in zip(attachments, attachment_paths(model.basin, bodies, attachments), strict=True):
+        if index in (one.body, one.other):
+            scaled = one.scaled(model.basin.units)
+            force, _, couple = np.abs((scaled.stiffness - 1j * omega * scaled.damping) @ path @ motions)
+            tail = force * beam.length**3 / (3.0 * pi**4 * count**3) + couple * beam.length**2 / (
+                2.0 * pi**3 * count**2
+            )
+            found += 2.0 * float(tail) / beam.flexural_rigidity
+    return found

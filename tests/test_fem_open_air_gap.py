@@ -1,0 +1,96 @@
+"""The elevation of the water at points, less the motion of these: against waves far away, and a closed form."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from scipy.special import h1vp, hankel1, jvp
+
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.models import SeaScene
+from hydroelastic.scenes.open_water.solve import solve_open
+
+GRAVITY, TOLERANCE = 9.81, 1e-2
+SECTION: dict[str, Any] = {"kind": "float", "shape": "rectangle", "half_width": 2.0, "half_height": 1.0, "draught": 1.0}
+FAR, EDGE = 14.0, 2.0
+
+
+def solved(body: dict[str, Any], depth: float, waves: dict[str, Any], *further: dict[str, Any]) -> Any:
+    scene = SeaScene(
+        sea={"drawn": [-15.0, 15.0]},
+        liquid=[{"density": 1000.0, "depth": depth}],
+        body=[body],
+        analysis=[{"kind": "spectrum"} | waves, *further],
+        accuracy={"tolerance": TOLERANCE},
+    )
+    solution = solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
+    assert solution.status == "ok", solution.reasons
+    return solution
+
+
+def band(omega: float, *points: dict[str, Any]) -> dict[str, Any]:
+    """Waves of unit variance about a frequency."""
+    frequencies = [omega - 0.02, omega, omega + 0.02]
+    return {"waves": "table", "omega": frequencies, "density": [0.0, 50.0, 0.0], "air_gaps": list(points)}
+
+
+@pytest.mark.mpi
+def test_water_rises_as_far_waves_and_the_motion_of_the_point_say() -> None:
+    """Far from a section over a bed waves are e^{ikx} + R e^{−ikx} and T e^{ikx}; at its edge it moves with them."""
+    # The middle of frequencies in a geometric series.
+    omega, depth = math.sqrt(1.98 * 2.02), 4.0
+    body = SECTION | {"motions": ["heave", "roll"], "vertical_centre_of_gravity": 0.0, "radius_of_gyration": 1.2}
+    points = [{"at": [-FAR, 2.0]}, {"at": [FAR, 2.0]}, {"at": [EDGE, 1.0]}, {"at": [EDGE, 1.0], "body": 1}]
+    solution = solved(body, depth, band(2.0, *points), {"kind": "response", "omega": [omega]})
+    (table,), (regular,) = solution.spectrum, solution.response
+    place = int(np.argmin(np.abs(table.omega - omega)))
+    assert table.omega[place] == pytest.approx(omega, abs=1e-9)
+    found = dict(zip(table.quantities, table.transfer[place], strict=True))
+    phase = np.exp(1j * regular.wavenumbers[0, 0] * FAR)
+    reflected, passed = regular.reflection[0, 0, 0], regular.transmission[0, 0, 0]
+    assert 0.2 < abs(reflected) < 0.98
+    # Evanescent waves have decayed to e^{−9}; R, T and the elevation have errors of their own.
+    assert found["relative elevation 1"] == pytest.approx(1.0 / phase + reflected * phase, abs=TOLERANCE)
+    assert found["relative elevation 2"] == pytest.approx(passed * phase, abs=TOLERANCE)
+    edge = found["heave"] + EDGE * found["roll"]
+    assert abs(edge) > 0.3
+    assert found["relative elevation 4"] == pytest.approx(found["relative elevation 3"] - edge, abs=1e-9)
+    gap = table.air_gaps[1]
+    assert gap.smallest_air_gap == pytest.approx(2.0 - gap.relative_elevation.largest_amplitude)
+    # m₀ of the waves is 1, and hardly any of T changes in the band.
+    assert gap.relative_elevation.significant_amplitude == pytest.approx(2.0 * abs(passed), rel=3e-2)
+
+
+@pytest.mark.slow
+def test_water_around_a_deep_cylinder_rises_as_around_one_on_the_bed() -> None:
+    """e^{ikx} − Σ εₙ iⁿ Jₙ′(ka)/Hₙ′(ka) Hₙ(kr) cos nθ of MacCamy and Fuchs, up to e^{−kd} = 6e-6."""
+    wavenumber = 2.0
+    omega = math.sqrt(GRAVITY * wavenumber)
+    places = [(-1.0, 0.0), (1.0, 0.0), (0.0, 1.5), (-0.5, -1.5)]
+    points = [{"at": [x, 4.0], "across": y} for x, y in places]
+    body = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 6.0, "motions": ["heave"]}
+    (table,) = solved(body | {"vertical_centre_of_gravity": -4.0}, math.inf, band(omega, *points)).spectrum
+    place = int(np.argmin(np.abs(table.omega - omega)))
+    orders = np.arange(30)
+    parts = np.where(orders, 2.0, 1.0) * 1j**orders * jvp(orders, wavenumber) / h1vp(orders, wavenumber)
+    names = [table.quantities.index(f"relative elevation {number + 1}") for number in range(len(places))]
+    for (x, y), found in zip(places, table.transfer[place, names], strict=True):
+        around = hankel1(orders, wavenumber * math.hypot(x, y)) * np.cos(orders * math.atan2(y, x))
+        assert found == pytest.approx(np.exp(1j * wavenumber * x) - parts @ around, abs=TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("gap", "message"),
+    [
+        ({"at": [0.5, 2.0]}, "below it there is .*body.* number 1, which reaches from -2 to 2 m"),
+        ({"at": [3.0, -0.5]}, "is not above the still water"),
+        ({"at": [16.0, 2.0]}, "outside what is drawn"),
+        ({"at": [3.0, 2.0], "across": 1.0}, "a section is the same at any distance across"),
+        ({"at": [3.0, 2.0], "body": 2}, "there is no body of that number"),
+    ],
+)
+def test_points_without_water_below_are_refused(gap: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        solved(SECTION | {"motions": ["heave"]}, 4.0, band(2.0, gap))

@@ -1,0 +1,118 @@
+"""A liquid that many bodies share: a point of a family is the single problem, to rounding, and its bound is checked.
+
+The single problem is that of the same matrices, solved whole: the tolerances are rounding of λ, 1e-12, of a sum of some
+hundred products, and of error estimates, which the directions that are left out may change by 2√(ε · 1e-14)/ε, 1e-2 for
+the smallest of them here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from tanks import Tanks
+
+from hydroelastic.fem import modes, shared_answer
+from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.liquid_answer import LiquidAnswer
+from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.tank.field_solution import PartPencils
+from hydroelastic.fem.tank.liquids import SharedLiquids
+from hydroelastic.fem.tank.solve import shared_liquids, solve_tank
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
+
+RIGIDITIES = (300.0, 3000.0, 30000.0)
+TOLERANCE = 1e-5
+COUNT = 8
+
+
+def tank_of(tanks: Tanks, rigidity: float, start: float) -> Tank:
+    return physical_tank(tanks.scene(tanks.beam(flexural_rigidity=rigidity, start=start), modes=4, tolerance=TOLERANCE))
+
+
+def family(tanks: Tanks, start: float) -> SharedLiquids:
+    ends = [tank_of(tanks, rigidity, start) for rigidity in (RIGIDITIES[0], RIGIDITIES[-1])]
+    return shared_liquids(ends, tolerance=TOLERANCE, modes=4)
+
+
+def pencils(tanks: Tanks, liquids: SharedLiquids, rigidity: float) -> PartPencils:
+    solution = solve_tank(tank_of(tanks, rigidity, 3.0), tolerance=TOLERANCE, modes=4, liquids=liquids)
+    return {part.parity: part.pencil for part in solution.field.parts}
+
+
+@pytest.fixture(scope="module")
+def liquids(tanks: Tanks) -> SharedLiquids:
+    return family(tanks, 3.0)
+
+
+@pytest.mark.parametrize("rigidity", RIGIDITIES)
+def test_a_point_of_a_family_is_the_whole_problem(tanks: Tanks, liquids: SharedLiquids, rigidity: float) -> None:
+    for pencil in pencils(tanks, liquids, rigidity).values():
+        answer = pencil.answer
+        assert isinstance(answer, SharedAnswer)
+        assert answer.cell_errors is not None
+        # The same matrices as those of a single tank, which knows nothing of a family.
+        alone = replace(pencil, answer=replace_by_plain(answer))
+        found, whole = solve_modes(pencil, COUNT), solve_modes(alone, COUNT)
+        assert found.projection is not None
+        assert whole.projection is None
+        assert found.projection.max() < modes.PROJECTED
+        assert found.eigenvalues == pytest.approx(whole.eigenvalues, rel=1e-12)
+        # Of the whole problem, not of the projected one.
+        assert 0.0 < max(mode.residual for mode in found.modes) < 1e-5
+        # Between neighbours a shift close to either is told apart.
+        for below, (lower, upper) in enumerate(pairwise(whole.eigenvalues), 1):
+            for shift in (lower + 1e-3 * (upper - lower), upper - 1e-3 * (upper - lower)):
+                assert count_below(pencil, float(shift)) == below
+        errors = answer.cell_errors(np.column_stack([mode.displacement.array_r for mode in found.modes]))
+        direct = cell_errors(pencil.liquid, [mode.potential for mode in whole.modes])
+        assert errors.sum(axis=1) == pytest.approx(direct.sum(axis=1), rel=1e-2)
+
+
+def replace_by_plain(answer: SharedAnswer) -> LiquidAnswer:
+    return LiquidAnswer(
+        potentials=answer.potentials, added_mass=answer.added_mass, root=answer.root, scaled=answer.scaled
+    )
+
+
+def test_where_the_bound_is_too_large_the_whole_problem_is_solved(
+    tanks: Tanks, liquids: SharedLiquids, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pencil = next(iter(pencils(tanks, liquids, 3000.0).values()))
+    answer = pencil.answer
+    assert isinstance(answer, SharedAnswer)
+    whole = solve_modes(pencil, COUNT).eigenvalues
+    # A basis of three gravity modes and the static part of the others is too small for eight modes: its λ are too high,
+    # and the bound says so.
+    monkeypatch.setattr(shared_answer, "_STEP", 1)
+    monkeypatch.setattr(shared_answer, "_TERMS", 1)
+    small = replace(answer, _projections={}).projection(2)
+    monkeypatch.setattr(SharedAnswer, "projection", lambda *_: small)
+    found = solve_modes(pencil, COUNT)
+    assert found.projection is None
+    assert found.eigenvalues == pytest.approx(whole, rel=1e-12)
+    monkeypatch.setattr(modes, "PROJECTED", np.inf)
+    coarse = solve_modes(pencil, COUNT)
+    assert coarse.projection is not None
+    # Kato and Temple: an upper bound of what is measured, where that is small; 1e-14 is rounding.
+    errors = coarse.eigenvalues / whole - 1.0
+    small_ones = errors < 1e-2
+    assert np.all(errors[small_ones] <= coarse.projection[small_ones] + 1e-14)
+    assert errors[small_ones].max() > 1e-6
+    assert np.all(coarse.projection[~small_ones] > 1e-3)
+
+
+def test_directions_of_a_point_do_not_change_the_estimates_of_another(tanks: Tanks) -> None:
+    single = family(tanks, 2.0)
+    tank = tank_of(tanks, 3000.0, 2.0)
+    first = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=single)
+    for rigidity in RIGIDITIES:
+        solve_tank(tank_of(tanks, rigidity, 2.0), tolerance=TOLERANCE, modes=4, liquids=single)
+    again = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=single)
+    assert first.counted
+    assert again.relative_errors == pytest.approx(first.relative_errors, rel=1e-2, nan_ok=True)

@@ -213,10 +213,7 @@ def _resonances_of_the_water(model: OpenModel, region: Region) -> list[complex]:
 
 def _spread(region: Region) -> list[complex]:
     """Targets all over a region, rad/s."""
-    found: list[complex] = (
-        np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping)
-    ).tolist()
-    return found
+    return list(np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping))
 
 
 def _region(expected: list[float], request: ResonanceRequest) -> Region:

@@ -206,7 +206,7 @@ def _completed(
     return Mode(
         eigenvalue=float(limits[place]),
         displacement=displacement,
-        potential=potential,
+        shaped=lambda: potential,
         residual=float(np.sqrt(found.errors[place])),
         body_amplitudes=amplitudes,
         energy=energy / energy.sum(),

@@ -83,7 +83,7 @@ class PlateModes:
         squared, surface, body, outside = response.squared.real, self._surface, self._body, self._outside
         waves = [response.incidence.planes[place] for place in response.incident]
         given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
-        scattered = self._model.pencil.products(response.potentials(motions), self._loads)
+        scattered = self._model.pencil.products(response.potentials(np.eye(len(motions)), motions), self._loads)
         pressures = surface.integrals(given, surface.shapes) + scattered
         omega = float(np.sqrt(squared))
         held = motions @ outside.impedance(omega)[self._known, self._modes]

@@ -31,6 +31,9 @@ _ANGLES, _PHASES = 73, 24
 # Ratio of successive orders beyond the last ones, at most, and a margin of what these add, and of errors of loads over
 # those of motions: measured 2.4 at the middle of a soft disc.
 _SLOWEST, _MARGIN = 0.5, 3.0
+# Errors of moments and of shear forces fall like these powers of those of waves once these are below the limit: waves
+# have the error of an energy, loads that of the pressure at points.
+_POWERS, _LIMIT = (0.5, 0.1), 6e-5
 # Error of moments and shear forces over their part in the last third of the polynomials, with a margin.
 _LAST = 0.25
 
@@ -63,13 +66,23 @@ def deflections_of_order(
         amplitudes, scattered = (
             factors * np.array([getattr(one, name) for one in bent]) for name in ("amplitudes", "scattered")
         )
-        uncertain = errors[:, None, None] * scattered @ values[0][:, None], _LAST * amplitudes @ values[1][:, None]
+        slower = np.array([_of_loads(errors, _POWERS[number == 3]) for number in range(4)])
+        uncertain = (
+            slower[..., None, None] * (scattered @ values[0][:, None]),
+            _LAST * amplitudes @ values[1][:, None],
+        )
         yield RoundDeflection(
             body=index,
             radii=radii,
             derivatives=(amplitudes @ values[0][:, None])[..., None, :],
             uncertain=np.array(uncertain)[..., None, :],
         )
+
+
+def _of_loads(errors: Floats, power: float) -> Floats:
+    """Errors of loads by those of waves, both relative."""
+    found: Floats = np.maximum(errors, _LIMIT * (errors / _LIMIT) ** power)
+    return found
 
 
 def radii_along(tank: Tank, index: int, positions: int) -> Floats:
@@ -102,9 +115,9 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
     moment_error, shear_error = (
         np.abs(part).sum(axis=(0, -2)).max(axis=-1)
         + left_out(orders)
-        + _MARGIN * error[:, None] * np.abs(orders).sum(axis=-2).max(axis=-1)
-        for part, orders in zip(
-            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), strict=True
+        + _MARGIN * _of_loads(error, power)[:, None] * np.abs(orders).sum(axis=-2).max(axis=-1)
+        for part, orders, power in zip(
+            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), _POWERS, strict=True
         )
     )
     orders = np.arange(deflection.shape[-2])[:, None]

@@ -14,7 +14,7 @@ from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.modal.liquid.sloshing import sloshing_frequencies
 
 # Below, rounding has a part in an error of λ (1e-13 (p/4)⁵ and less, with some room).
-ROUNDING = 1e-11
+ROUNDING = 2e-11
 
 
 def liquid_estimates(pencil: Any, count: int) -> tuple[np.ndarray, np.ndarray]:

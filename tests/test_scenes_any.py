@@ -36,7 +36,7 @@ MANY = settings(REPRODUCIBLE, max_examples=2500)
 # What Python and its libraries say of values and errors.
 FOREIGN = re.compile(
     r"array\(|<class|<function|object at 0x|Input should|validation error|pydantic|Traceback|float64|int64|\bNone\b|"
-    r"\bdict\b|\btuple\b|PosixPath|ValueError|TypeError|Errno|\{'"
+    r"\bdict\b|\btuple\b|PosixPath|ValueError|TypeError|Errno|\{'\w"
 )
 
 

@@ -15,6 +15,7 @@ import sys
 import sysconfig
 import tempfile
 from collections.abc import Callable
+from importlib.machinery import PathFinder
 from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -56,7 +57,7 @@ def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> 
         The folder to add to the search path, or ``None`` if the environment itself has the peer.
 
     Raises:
-        PeerError: if it is missing and not installed.
+        PeerError: if it is missing and not installed, or if what was installed cannot be read.
     """
     if find_spec(PEER_MODULES[code]) is not None:
         return None
@@ -68,7 +69,10 @@ def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> 
             raise PeerError(f"{code} is not installed, and no installation was asked for")
         report(f"installing {requirement} into {folder}")
         _install(requirement, folder)
-    return _packages(folder)
+    packages = _packages(folder)
+    if PathFinder.find_spec(PEER_MODULES[code], [str(packages)]) is None:
+        raise PeerError(f"{folder} has no {PEER_MODULES[code]} that can be read; remove it to have it installed again")
+    return packages
 
 
 def cache_folder() -> Path:
@@ -104,6 +108,7 @@ def _install(requirement: str, folder: Path) -> None:
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         building = Path(tempfile.mkdtemp(prefix=f"{folder.name}.", suffix=".partial", dir=folder.parent))
+        building.chmod(folder.parent.stat().st_mode)  # as open as the cache, which others may share
     except OSError as error:
         raise PeerError(f"the cache {folder.parent} cannot be written ({error.strerror or error})") from error
     try:

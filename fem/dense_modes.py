@@ -54,12 +54,11 @@ class DenseModes:
         self._free = pencil.free_rigid
         stiffness = pencil.body_stiffness
         self._scale = np.where(stiffness > 0.0, stiffness, 1.0) ** -0.5
-        volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
-        of_bodies = volumes[:, :bodies] * self._scale
+        of_bodies = pencil.volumes[:, :bodies] * self._scale
         if projection is None:
             self._columns = self.kinetics = self._with_bodies(answer.scaled)
             self._root = answer.root
-            self._volumes = self.volumes = np.hstack([of_bodies, volumes[:, bodies:] @ answer.root])
+            self._volumes = self.volumes = np.hstack([of_bodies, pencil.volumes[:, bodies:] @ answer.root])
         else:
             self._columns, self.kinetics = map(self._with_bodies, (projection.columns, projection.kinetics))
             self._root = projection.root
@@ -68,10 +67,8 @@ class DenseModes:
 
     def _with_bodies(self, added_mass: np.ndarray) -> np.ndarray:
         """M + M_a with the unknowns of the bodies scaled."""
-        kinetics, bodies, first = added_mass.copy(), self._pencil.body_size, 0
-        for body in self._pencil.bodies:
-            kinetics[first : first + body.size, first : first + body.size] += body.mass
-            first += body.size
+        kinetics, bodies = added_mass.copy(), self._pencil.body_size
+        kinetics[:bodies, :bodies] += self._pencil.body_mass
         kinetics[:bodies] *= self._scale[:, None]
         kinetics[:, :bodies] *= self._scale
         return kinetics

@@ -82,15 +82,14 @@ def _densities(pencil: CoupledPencil) -> np.ndarray:
 def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float) -> int | None:
     """As `count_below`, by Sylvester's law from K − σ(M + M_a) bordered by the volume constraints; ``None`` where σ is
     an eigenvalue to working precision."""
-    volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
     if isinstance(answer, SharedAnswer):
-        count = _shared_count(pencil, answer, eigenvalue, volumes)
+        count = _shared_count(pencil, answer, eigenvalue)
         if count is not None:
             return count
     stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + answer.added_mass)
     # Scaled so that stiff shapes and small elements weigh alike.
     scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
-    volumes = volumes * scale
+    volumes = pencil.volumes * scale
     volumes /= np.linalg.norm(volumes, axis=1, keepdims=True)
     corner = np.zeros((len(volumes), len(volumes)))
     block = scale[:, None] * (stiffness - inertia) * scale
@@ -98,19 +97,16 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
 
 
-def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float, volumes: np.ndarray) -> int | None:
+def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float) -> int | None:
     """The same with the surfaces eliminated in their gravity modes; ``None`` where σ is close to one of these."""
     found, bodies = answer.eliminated(eigenvalue), answer.bodies
     if found is None:
         return None
     negative, left = found
-    first = 0
-    for body in pencil.bodies:
-        left[first : first + body.size, first : first + body.size] -= eigenvalue * body.mass
-        first += body.size
+    left[:bodies, :bodies] -= eigenvalue * pencil.body_mass
     left[np.diag_indices(bodies)] += pencil.body_stiffness
-    left[bodies:, :bodies] += volumes[:, :bodies]
-    left[:bodies, bodies:] += volumes[:, :bodies].T
+    left[bodies:, :bodies] += pencil.volumes[:, :bodies]
+    left[:bodies, bodies:] += pencil.volumes[:, :bodies].T
     scale = 1.0 / np.sqrt(np.abs(np.diag(left)))
     below = _negative(scale[:, None] * left * scale)
     return None if below is None else negative + below - len(pencil.constraints) - pencil.zero_mode_count

@@ -94,6 +94,20 @@ class CoupledPencil(Generic[Unknowns]):
         """Stiffness of the body unknowns, shape (body unknowns,)."""
         return np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
 
+    @cached_property
+    def body_mass(self) -> np.ndarray:
+        """Mass of the body unknowns without liquid, a block for each body, shape (body unknowns, body unknowns)."""
+        mass, first = np.zeros((len(self.body_stiffness),) * 2), 0
+        for body in self.bodies:
+            mass[first : first + body.size, first : first + body.size] = body.mass
+            first += body.size
+        return mass
+
+    @cached_property
+    def volumes(self) -> np.ndarray:
+        """Volumes of the constraints, on one process, shape (constraints, unknowns)."""
+        return np.array([one.volume.array_r for one in self.constraints]).reshape(-1, self.size)
+
     @property
     def unstable(self) -> np.ndarray:
         """Indices of the body unknowns of negative stiffness: unstable motions of floats."""

@@ -99,6 +99,7 @@ def test_pip_gets_the_declared_range_and_keeps_numpy(
     def pip(command: list[str]) -> subprocess.CompletedProcess[str]:
         asked.append(command)
         pins.append(Path(command[command.index("--constraint") + 1]).read_text(encoding="utf-8"))
+        (peers._packages(Path(command[command.index("--prefix") + 1])) / PEER_MODULES[code]).mkdir(parents=True)
         return subprocess.CompletedProcess(command, 0, "", "")
 
     pip_that(monkeypatch, pip)
@@ -114,6 +115,14 @@ def test_pip_gets_the_declared_range_and_keeps_numpy(
     assert peer_folder(code, install=True, report=said.append) == folder
     assert (len(asked), len(said)) == (1, 1)
     assert [path.suffix for path in empty_cache.iterdir()] == [""]
+
+
+def test_what_cannot_be_read_is_told(empty_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pip_that(monkeypatch, lambda command: subprocess.CompletedProcess(command, 0, "", ""))
+    with pytest.raises(PeerError, match=r"has no capytaine that can be read; remove it"):
+        peer_folder("capytaine", install=True, report=silent)
+    (folder,) = empty_cache.iterdir()
+    assert folder.stat().st_mode == empty_cache.stat().st_mode
 
 
 def test_a_failed_installation_leaves_nothing_and_says_why(empty_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

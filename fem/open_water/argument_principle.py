@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from hydroelastic.fem.open_water.basin import extent_of_bodies
 from hydroelastic.fem.open_water.damped import DampedSolver
 from hydroelastic.fem.open_water.solver import OpenSolver
 
@@ -24,7 +25,7 @@ _JUDGED, _FIRST = 16, 64
 # Number of times that the distance between points may be halved, and the change of phase above which it is, radians.
 _HALVINGS = 8
 _TURN = 1.0
-# Change of 2k times the length of the basin between neighbouring points above which more points are needed, radians.
+# Change of 2k times the extent of the bodies between neighbouring points above which more points are needed, radians.
 _UNRESOLVED = 2.0
 # The winding number needs few digits of H; its error goes like the square of the residual.
 _RESIDUAL = 1e-2
@@ -58,12 +59,14 @@ def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> in
 def _unresolved(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     """Whether the phase may turn by more than is seen from each point to the next, as waves do that grow along bodies.
 
-    H of `damped` has their squares, and no body is longer than the basin.
+    H of `damped` has their squares. Thin floats may be many times as deep as the basin is long.
     """
     if isinstance(solver, OpenSolver):
         return np.zeros(len(omegas), dtype=bool)
+    _, _, low, high = extent_of_bodies(solver.model.basin.tank)
     wavenumbers = np.array([solver.wavenumber(omega) for omega in omegas])
-    unresolved: np.ndarray = 2.0 * np.abs(np.roll(wavenumbers, -1) - wavenumbers) > _UNRESOLVED
+    changes = np.abs(np.roll(wavenumbers, -1) - wavenumbers)
+    unresolved: np.ndarray = 2.0 * max(1.0, -low, high) * changes > _UNRESOLVED
     return unresolved
 
 

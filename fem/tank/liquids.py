@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
@@ -126,8 +125,7 @@ def _shared(pencil: CoupledPencil) -> CoupledPencil:
     if answer is None:
         return pencil
     errors = SharedErrors(pencil.liquid, answer).cells if is_straight(pencil.liquid.tank.mesh) else None
-    volumes = np.array([one.volume.array_r for one in pencil.constraints]).reshape(-1, pencil.size)
-    of_surfaces = volumes[:, pencil.body_size :] @ answer.root
+    of_surfaces = pencil.volumes[:, pencil.body_size :] @ answer.root
     shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, cell_errors=errors)
     return replace(pencil, answer=shared)
 

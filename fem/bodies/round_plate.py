@@ -98,7 +98,7 @@ class RoundShapes:
         bending: the energy of bending and tension likewise, shape (shapes,).
     """
 
-    def __init__(self, plate: RoundPlate, count: int, spare: int = FEW_MODES) -> None:
+    def __init__(self, plate: RoundPlate, count: int, spare: int | None = None) -> None:
         """Find the shapes."""
         assert plate.order is not None
         self._plate, rigid = plate, plate.rigid_motions
@@ -113,7 +113,7 @@ class RoundShapes:
             rigidity=plate.flexural_rigidity if plate.bends else 1.0,
             tension=plate.tension if plate.bends else 0.0,
         )
-        self._modes = dry_modes(line, self.count + spare)
+        self._modes = dry_modes(line, self.count + (max(FEW_MODES, self.count) if spare is None else spare))
         edge = self._modes.values(np.array([plate.radius]))[0, : self.count]
         self._factors = np.where([dof.is_rotation for dof in self.dofs], plate.radius, 1.0) / edge
         self.squares: NDArray[np.float64] = self._modes.squares[: self.count] * self._factors**2

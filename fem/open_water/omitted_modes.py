@@ -26,8 +26,7 @@ def truncation(solution: OpenResponse) -> float:
     model, motions = solution.model, solution.motions
     sizes = np.maximum(np.abs(motions).max(axis=1, initial=0.0), np.finfo(float).tiny)
     omitted = [omitted_deflection(solution, index) / sizes for index in model.basin.tank.beams]
-    no_drag = np.zeros((len(motions), len(model.outside.drag)))
-    omitted += [modes.of(solution, motions, no_drag).omitted for modes in model.plate_modes.values()]
+    omitted += [modes.omitted(solution) for modes in model.plate_modes.values()]
     return max((float(one.max()) for one in omitted), default=0.0)
 
 

@@ -8,12 +8,12 @@ deflection then converge as fast as the pressure allows (mode acceleration, see 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydroelastic.fem.bodies.round_plate import RoundPlateModel, RoundShapes
+from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import weighed_loads
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
@@ -25,21 +25,6 @@ if TYPE_CHECKING:
 # With so many further modes the moment is accurate to 1e-8 and the shear force to 4e-6 of the largest, of discs and
 # rings with loads like s ln s at their edges.
 _FURTHER = 36
-
-
-@dataclass(frozen=True, kw_only=True)
-class BentPlate:
-    """Amplitudes of the dry modes of a plate in waves of a unit of c. Shapes: w waves, k dry modes.
-
-    Attributes:
-        amplitudes: of all modes, shape (w, k).
-        scattered: of the plate bent by the pressure of the scattered waves alone, shape (w, k).
-        omitted: effect of the further modes on the amplitude of the outgoing wave over the incident one, shape (w,).
-    """
-
-    amplitudes: np.ndarray
-    scattered: np.ndarray
-    omitted: np.ndarray
 
 
 class PlateModes:
@@ -59,7 +44,7 @@ class PlateModes:
         """Integrate over the plate (collective)."""
         pencil, basin = model.pencil, model.basin
         count, first = pencil.bodies[index].size, sum(body.size for body in pencil.bodies[:index])
-        self._model, self.own = model, slice(first, first + count)
+        self._model, self.own, self._count = model, slice(first, first + count), count
         plate = RoundPlateModel(tank=basin.tank, index=index)
         self.bends = plate.plate.bends
         self.shapes = RoundShapes(plate.plate, count + _FURTHER * bool(count), spare=0)
@@ -72,27 +57,75 @@ class PlateModes:
         # The unknowns of the model among these.
         self._known = np.delete(np.arange(len(self._outside.stiffness)), np.arange(first + count, self._modes.stop))
 
-    def of(self, response: OpenResponse, motions: np.ndarray, drag: np.ndarray) -> BentPlate:
-        """Return the amplitudes of all modes in each incident wave (collective).
+    def of(self, response: OpenResponse, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
+        """Return the amplitudes of all modes in each incident wave of a unit of c, shape (incident, modes) (collective).
 
         Args:
             response: to waves.
             motions: of all body unknowns, those of the response or with further damping, shape (incident, unknowns).
             drag: linear damping in place of each drag of `OutsideForces`, dimensionless, shape (incident, drags).
         """
-        squared, surface, body, outside = response.squared.real, self._surface, self._body, self._outside
-        waves = [response.incidence.planes[place] for place in response.incident]
-        given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
-        scattered = self._model.pencil.products(response.potentials(np.eye(len(motions)), motions), self._loads)
-        pressures = surface.integrals(given, surface.shapes) + scattered
+        squared, outside = response.squared.real, self._outside
         omega = float(np.sqrt(squared))
         held = motions @ outside.impedance(omega)[self._known, self._modes]
         held -= 1j * omega * (drag * (motions @ outside.paths[:, self._known].T)) @ outside.paths[:, self._modes]
-        count = self.own.stop - self.own.start
-        amplitudes = (squared * pressures - held) / (body.stiffness - squared * np.diag(body.mass))
-        amplitudes[:, :count] = motions[:, self.own]
-        bends = body.bending_stiffness > 0.0
-        statically = squared * scattered * bends / np.where(bends, body.stiffness, 1.0)
-        powers = response.incidence.powers[response.incident]
-        omitted = np.abs((amplitudes * pressures)[:, count:].sum(axis=1)) / powers
-        return BentPlate(amplitudes=amplitudes, scattered=statically, omitted=omitted)
+        amplitudes = (squared * self._pressures(response, motions) - held) / self._restoring(squared)
+        amplitudes[:, : self._count] = motions[:, self.own]
+        return np.asarray(amplitudes)
+
+    def omitted(self, response: OpenResponse) -> np.ndarray:
+        """Return the effect of the further modes on the amplitude of the outgoing wave over the incident one, shape
+        (incident,) (collective)."""
+        motions, count = response.motions, self._count
+        further = (self.undamped(response) * self._pressures(response, motions))[:, count:].sum(axis=1)
+        return np.asarray(np.abs(further) / response.incidence.powers[response.incident])
+
+    def errors(self, responses: list[OpenResponse], weights: np.ndarray) -> np.ndarray:
+        """Estimate errors of loads J = Σ bₖaₖ in each incident wave of a unit of c (collective).
+
+        Further modes have aₖ = fₖ/(Kₖ − λmₖ): with yₖ = bₖ/(Kₖ − λmₖ), J is a functional of the motions and of the
+        scattered waves whose dual solution has the amplitudes yₖ, and those of the modes of the model that follow, see
+        `functional_errors`. As hardly any waves radiate from further modes, their part of its potential is that of the
+        highest frequency. What the waves radiated by these modes change J by is λΣ aₖ times the pressure of the dual
+        solution on mode k.
+
+        Args:
+            responses: to waves.
+            weights: bₖ, shape (loads, modes).
+
+        Returns:
+            Shape (responses, loads, incident).
+        """
+        pencil, count = self._model.pencil, self._count
+        highest = max(one.squared.real for one in responses)
+        solver = pencil.solver()
+        solver.shift(highest)
+        loads = (weights / self._restoring(highest))[:, count:] @ self._loads[count:]
+        further = np.array([solver.solve(load) for load in loads])
+        return np.array([self._errors(one, weights, further) for one in responses])
+
+    def _errors(self, response: OpenResponse, weights: np.ndarray, further: np.ndarray) -> np.ndarray:
+        squared, count = response.squared.real, self._count
+        held = self._outside.impedance(float(np.sqrt(squared)))[self._known, self._modes]
+        of_motions = -(weights / self._restoring(squared))[:, count:] @ held[:, count:].T
+        of_motions[:, self.own] += weights[:, :count]
+        dual = dual_motions(response, of_motions)
+        loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
+        bent = self.undamped(response)[:, count:]
+        radiated = self._model.pencil.products(loaded, self._loads[count:]) @ bent.T
+        return np.asarray(sum(functional_errors(response, dual, further)) + squared * np.abs(radiated))
+
+    def undamped(self, response: OpenResponse) -> np.ndarray:
+        """Return the amplitudes of all modes without drag, see `of`."""
+        motions = response.motions
+        return self.of(response, motions, np.zeros((len(motions), len(self._outside.drag))))
+
+    def _pressures(self, response: OpenResponse, motions: np.ndarray) -> np.ndarray:
+        """∫ρΨ on all modes of all waves, shape (incident, modes)."""
+        surface, waves = self._surface, [response.incidence.planes[place] for place in response.incident]
+        given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
+        scattered = self._model.pencil.products(response.potentials(np.eye(len(motions)), motions), self._loads)
+        return surface.integrals(given, surface.shapes) + scattered
+
+    def _restoring(self, squared: float) -> np.ndarray:
+        return self._body.stiffness - squared * np.diag(self._body.mass)

@@ -22,7 +22,7 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
-from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
+from hydroelastic.fem.open_water.round_plates import deflections_of_order, plate_load_errors, radii_along
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -226,8 +226,9 @@ def _reported_motions(model: OpenModel) -> np.ndarray:
 
 def load_errors(model: OpenModel, solutions: list[OpenResponse]) -> dict[int, np.ndarray]:
     """Return errors of deflection, shear force and bending moment anywhere along each beam, per c of each incident wave
-    and in units of the basin, shape (n, 3, incident), by the number of the body (collective)."""
-    found = {}
+    and in units of the basin, shape (n, 3, incident), and `plate_load_errors`, by the number of the body
+    (collective)."""
+    found = {index: plate_load_errors(model, index, solutions) for index in model.plate_modes}
     for index, beam in model.basin.tank.beams.items():
         along = BeamLoads(model, index, np.linspace(0.0, beam.length, _SECTIONS))
         found[index] = np.array([along.errors(one, omitted_deflection(one, index)) for one in solutions])
@@ -275,7 +276,8 @@ def _table(
                 solutions,
                 _moved(request, model, solutions),
                 towards,
-                errors,
+                reduced,
+                of_loads,
                 lambda index: model.basin.units.length * radii_along(model.basin.tank, index, request.positions),
             )
         ),

@@ -107,14 +107,13 @@ class RoundDeflection:
         body: its index among the bodies.
         radii: (p,) from the axis or the inner edge to the outer one, m.
         derivatives: (4, n, w, orders, p) Wₙ, Wₙ′, Wₙ″ and ∂(ΔₙWₙ)/∂r per unit elevation of the incident wave, m^{-d}.
-        uncertain: (2, 4, n, w, orders, p) parts of these that are not certain: by the error of the scattered waves, and
-            by the last dry modes.
+        uncertain: (2, n, w, orders) estimated errors of moment and shear force over the rigidity anywhere, 1/m², 1/m³.
     """
 
     body: int
     radii: Floats
     derivatives: Complexes
-    uncertain: Complexes
+    uncertain: Floats
 
 
 @dataclass(frozen=True, kw_only=True)

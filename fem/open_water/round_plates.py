@@ -28,14 +28,10 @@ OF_LOADS = 0.1
 
 # Angles from 0 to π, and phases of half a period, among which the largest strain is sought.
 _ANGLES, _PHASES = 73, 24
-# Ratio of successive orders beyond the last ones, at most, and a margin of what these add, and of errors of loads over
-# those of motions: measured 2.4 at the middle of a soft disc.
+# Ratio of successive orders beyond the last ones, at most, and a margin of what these add.
 _SLOWEST, _MARGIN = 0.5, 3.0
-# Errors of moments and of shear forces fall like these powers of those of waves once these are below the limit: waves
-# have the error of an energy, loads that of the pressure at points.
-_POWERS, _LIMIT = (0.5, 0.1), 6e-5
-# Error of moments and shear forces over their part in the last third of the polynomials, with a margin.
-_LAST = 0.25
+# Radii at which errors of loads are estimated, both edges or the axis included.
+_SECTIONS = 7
 
 
 def deflections_of_order(
@@ -43,7 +39,8 @@ def deflections_of_order(
     responses: list[OpenResponse],
     moved: list[tuple[np.ndarray, np.ndarray]],
     towards: int,
-    errors: Floats,
+    reduced: Floats,
+    of_loads: dict[int, np.ndarray],
     radii_of: Callable[[int], Floats],
 ) -> Iterator[RoundDeflection]:
     """Yield the deflection of each round plate in the waves of one order (collective).
@@ -53,7 +50,9 @@ def deflections_of_order(
         responses: to waves, shape (frequencies,).
         moved: the motions and the linear damping in place of drag of each, see `PlateModes.of`.
         towards: direction of the waves.
-        errors: of the responses, relative to the incident wave, shape (frequencies,).
+        reduced: relative errors of the responses by the reduced basis, shape (frequencies,).
+        of_loads: errors of moment and shear force of each plate by its index, see `plate_load_errors`, shape
+            (frequencies, 2, waves).
         radii_of: returns the ascending radii of a plate by its index among the bodies, m.
     """
     factors = np.array([one.per_elevation(towards) for one in responses])[..., None]
@@ -61,28 +60,37 @@ def deflections_of_order(
     for index, modes in model.plate_modes.items():
         radii = radii_of(index)
         scaled = np.asarray(radii / length, dtype=np.float64)
-        values = modes.shapes.bent(scaled) / length ** np.arange(4.0)[:, None, None]
+        values = modes.shapes.bent(scaled)[0] / length ** np.arange(4.0)[:, None, None]
         bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
-        amplitudes, scattered = (
-            factors * np.array([getattr(one, name) for one in bent]) for name in ("amplitudes", "scattered")
-        )
-        slower = np.array([_of_loads(errors, _POWERS[number == 3]) for number in range(4)])
-        uncertain = (
-            slower[..., None, None] * (scattered @ values[0][:, None]),
-            _LAST * amplitudes @ values[1][:, None],
-        )
+        derivatives = (factors * np.array(bent) @ values[:, None])[..., None, :]
+        order = np.array([model.basin.tank.geometry.order])
+        largest = np.abs(_bent(plate_of(model.basin.tank.bodies[index]), radii, derivatives, order)).max(axis=-1)
+        meshed = of_loads.get(index, np.zeros((len(responses), 2, 1))).swapaxes(0, 1) * np.abs(factors[..., 0])
+        meshed = meshed / length ** np.array([2.0, 3.0])[:, None, None]
         yield RoundDeflection(
             body=index,
             radii=radii,
-            derivatives=(amplitudes @ values[0][:, None])[..., None, :],
-            uncertain=np.array(uncertain)[..., None, :],
+            derivatives=derivatives,
+            uncertain=meshed[..., None] + reduced[:, None, None] * largest,
         )
 
 
-def _of_loads(errors: Floats, power: float) -> Floats:
-    """Errors of loads by those of waves, both relative."""
-    found: Floats = np.maximum(errors, _LIMIT * (errors / _LIMIT) ** power)
-    return found
+def plate_load_errors(model: OpenModel, index: int, solutions: list[OpenResponse]) -> np.ndarray:
+    """Return errors of moment and shear force over the rigidity anywhere on a round plate, per c of each incident wave
+    and in units of the basin, shape (solutions, 2, incident) (collective).
+
+    Beside `PlateModes.errors` they are what the upper half of the polynomials adds: the difference of two truncations.
+    """
+    modes, plate = model.plate_modes[index], plate_of(model.basin.tank.bodies[index])
+    radii: np.ndarray = np.linspace(plate.inner_radius, plate.radius, _SECTIONS)
+    order = np.array([model.basin.tank.geometry.order])
+    whole, last = (
+        _bent(plate, radii, values[..., None, :], order)[..., 0, :].swapaxes(1, 2).reshape(2 * _SECTIONS, -1)
+        for values in modes.shapes.bent(radii)
+    )
+    added = np.array([np.abs(last @ modes.undamped(one).T) for one in solutions])
+    errors = (modes.errors(solutions, whole) + added).reshape(len(solutions), 2, _SECTIONS, -1)
+    return np.asarray(errors.max(axis=2))
 
 
 def radii_along(tank: Tank, index: int, positions: int) -> Floats:
@@ -96,7 +104,7 @@ def joined(parts: list[RoundDeflection]) -> RoundDeflection:
     return replace(
         parts[0],
         derivatives=np.concatenate([part.derivatives for part in parts], axis=-2),
-        uncertain=np.concatenate([part.uncertain for part in parts], axis=-2),
+        uncertain=np.concatenate([part.uncertain for part in parts], axis=-1),
     )
 
 
@@ -109,19 +117,12 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
         error: of the deflection relative to the larger of it and the wave, shape (frequencies,).
     """
     plate = plate_of(tank.bodies[found.body])
-    deflection = found.derivatives[0]
-    along = _polar(found.radii, found.derivatives)[0]
-    moment, shear = _loads(plate, found.radii, found.derivatives)
-    moment_error, shear_error = (
-        np.abs(part).sum(axis=(0, -2)).max(axis=-1)
-        + left_out(orders)
-        + _MARGIN * _of_loads(error, power)[:, None] * np.abs(orders).sum(axis=-2).max(axis=-1)
-        for part, orders, power in zip(
-            _loads(plate, found.radii, found.uncertain.swapaxes(0, 1)), (moment, shear), _POWERS, strict=True
-        )
-    )
-    orders = np.arange(deflection.shape[-2])[:, None]
-    behind = (-1.0) ** orders
+    deflection, along = found.derivatives[0], found.derivatives[2]
+    orders = np.arange(deflection.shape[-2])
+    rigidity = plate.flexural_rigidity if plate.bends else 0.0
+    moment, shear = rigidity * _bent(plate, found.radii, found.derivatives, orders)
+    moment_error, shear_error = rigidity * found.uncertain.sum(axis=-1) + [left_out(moment), left_out(shear)]
+    behind = (-1.0) ** orders[:, None]
 
     def whole(values: np.ndarray, sign: float = 1.0) -> np.ndarray:
         # From the edge at θ = π to that at θ = 0; the axis, of a disc, is one point.
@@ -165,33 +166,33 @@ def left_out(orders: np.ndarray) -> Floats:
     return left
 
 
-def _loads(plate: RoundPlate, radii: Floats, derivatives: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bending moment and shear force along the radius, each as the deflections."""
-    along, across, _, slope = _polar(radii, derivatives)
-    rigidity = plate.flexural_rigidity if plate.bends else 0.0
-    return rigidity * (along + plate.poisson_ratio * across), rigidity * slope
+def _bent(plate: RoundPlate, radii: Floats, derivatives: np.ndarray, orders: np.ndarray) -> np.ndarray:
+    """Bending moment and shear force along the radius over the rigidity, each as one of the derivatives."""
+    along, across, _ = _polar(radii, derivatives, orders)
+    return np.array([along + plate.poisson_ratio * across, derivatives[3]])
 
 
-def _polar(radii: Floats, derivatives: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The curvatures along and across the radius, the twist, and ∂(ΔₙWₙ)/∂r, each as the deflections.
+def _polar(radii: Floats, derivatives: np.ndarray, orders: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The curvatures along and across the radius and the twist, each as the deflections.
 
     On the axis, where Wₙ ~ rⁿ, they are limits.
     """
-    value, first, second, slope = derivatives
-    n, r = np.arange(value.shape[-2])[:, None], radii
+    value, first, second, _ = derivatives
+    n, r = orders[:, None], radii
     on_axis = r == 0.0
     r = np.where(on_axis, 1.0, r)
     across = np.where(on_axis, second * (1.0 - 0.5 * n**2), first / r - n**2 * value / r**2)
     twist = np.where(on_axis, -0.5 * n * second, -n * (first / r - value / r**2))
-    return second, across, twist, slope
+    return second, across, twist
 
 
 def _largest(plate: RoundPlate, found: RoundDeflection) -> tuple[Floats | None, Floats | None]:
     """Largest principal strain and stress at the faces of a plate, over all its points and times."""
     if plate.thickness is None or not plate.bends:
         return None, None
-    along, across, twist, _ = _polar(found.radii, found.derivatives)
-    angles = np.linspace(0.0, np.pi, _ANGLES) * np.arange(along.shape[-2])[:, None]
+    orders = np.arange(found.derivatives.shape[-2])
+    along, across, twist = _polar(found.radii, found.derivatives, orders)
+    angles = np.linspace(0.0, np.pi, _ANGLES) * orders[:, None]
     cosine, sine = np.cos(angles), np.sin(angles)
     half_sum, half_difference = (
         0.5 * np.einsum("fwnp,na->fwpa", values, cosine) for values in (along + across, along - across)

@@ -123,15 +123,19 @@ def along_plates(
         ]
         model = one.solver.model
         known = load_errors(model, [one.responses[place] for place in places])
+        # As errors of the motions, about a resonance they change by orders of magnitude.
+        meshed = {
+            index: np.exp(
+                interp1d(one.omegas[places], np.log(np.maximum(values, np.finfo(float).tiny)), axis=0)(one.omegas)
+            )
+            for index, values in known.items()
+        }
         for index, beam in model.basin.tank.beams.items():
             x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
             along = BeamLoads(model, index, x)
             found = [along.of(response, *own) for response, own in zip(one.responses, moved, strict=True)]
-            logarithms = np.log(np.maximum(known[index], np.finfo(float).tiny))
-            # As those of the motions, about a resonance they change by orders of magnitude.
-            meshed = np.exp(interp1d(one.omegas[places], logarithms, axis=0)(one.omegas))
-            yield plate_deflection(model, index, x, one.responses, found, one.reduced, meshed)
-        parts.append(deflections_of_order(model, one.responses, moved, towards, one.errors, radii))
+            yield plate_deflection(model, index, x, one.responses, found, one.reduced, meshed[index])
+        parts.append(deflections_of_order(model, one.responses, moved, towards, one.reduced, meshed, radii))
     errors = np.max([one.errors for one in curves], axis=0)
     for plates in zip(*parts, strict=True):
         yield along_diameter(tank, joined(list(plates)), errors)

@@ -191,15 +191,20 @@ class OpenModel:
         Returns:
             Both energies, dimensionless, each of shape (potentials,).
         """
-        pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
-        vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
-        cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        cells = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
+        mesh, cells = self.pencil.liquid.tank.mesh, self.cells_missed(potentials, layer_weight)
         corners = tip_points(self.basin.tank, half=False)
         tips = cells_at(mesh, corners) if len(corners) else np.zeros(cells.shape[1], dtype=bool)
         at_tips = mesh.comm.allreduce(cells[:, tips].sum(axis=1), op=MPI.SUM)
         whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
         return whole - at_tips, at_tips
+
+    def cells_missed(self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT) -> np.ndarray:
+        """The same in each own cell, shape (potentials, cells) (collective)."""
+        pencil = self.pencil
+        vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
+        cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
+        weighed: np.ndarray = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
+        return weighed
 
     @cached_property
     def _in_absorbing_layer(self) -> np.ndarray:

@@ -30,24 +30,20 @@ if TYPE_CHECKING:
 _COUNTED = 0.5
 
 
-def functional_errors(
-    response: OpenResponse, dual: np.ndarray, further: np.ndarray | float = 0.0
-) -> tuple[np.ndarray, np.ndarray]:
+def functional_errors(response: OpenResponse, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Estimate errors of functionals J in each incident wave away from tips, with the absorbing layer, and at tips
     (collective).
 
     Args:
         response: to waves of c = 1.
         dual: y of each J, shape (functionals, body unknowns).
-        further: part of ψ_y beside that of y, of g that are no shapes of the bodies, shape (functionals, free unknowns).
 
     Returns:
         Both errors of each J, each of shape (functionals, incident).
     """
     model, squared = response.model, abs(response.squared)
-    loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
-    energies = zip(model.energies_missed(loaded), response.missed, strict=True)
-    away, tips = (np.sqrt(np.outer(one, other)) for one, other in energies)
+    loaded = model.energies_missed(response.potentials(np.zeros((len(dual), len(response.incident))), dual))
+    away, tips = (np.sqrt(np.outer(one, other)) for one, other in zip(loaded, response.missed, strict=True))
     radiated = response.incidence.amplitudes((response.incidence.pressures - response.equations.radiated) @ dual.T)
     powers = response.incidence.powers @ np.abs(radiated) ** 2
     reflected = response.reflected * np.sqrt(np.outer(powers, response.scattered_powers))

@@ -58,7 +58,7 @@ class PlateModes:
         self._known = np.delete(np.arange(len(self._outside.stiffness)), np.arange(first + count, self._modes.stop))
 
     def of(self, response: OpenResponse, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
-        """Return the amplitudes of all modes in each incident wave of a unit of c, shape (incident, modes) (collective).
+        """Return the amplitudes of all modes in each wave of a unit of c, shape (incident, modes) (collective).
 
         Args:
             response: to waves.
@@ -85,9 +85,9 @@ class PlateModes:
 
         Further modes have aₖ = fₖ/(Kₖ − λmₖ): with yₖ = bₖ/(Kₖ − λmₖ), J is a functional of the motions and of the
         scattered waves whose dual solution has the amplitudes yₖ, and those of the modes of the model that follow, see
-        `functional_errors`. As hardly any waves radiate from further modes, their part of its potential is that of the
-        highest frequency. What the waves radiated by these modes change J by is λΣ aₖ times the pressure of the dual
-        solution on mode k.
+        `functional_errors`. Hardly any waves radiate from further modes: their part of its potential is that of the
+        highest frequency, and, as it ends close to the plate, |A_λ(ψ_y − ψ_yh, ψ − ψ_h)| is bounded cell by cell. What
+        the waves radiated by these modes change J by is λΣ aₖ times the pressure of the dual solution on mode k.
 
         Args:
             responses: to waves.
@@ -102,18 +102,21 @@ class PlateModes:
         solver.shift(highest)
         loads = (weights / self._restoring(highest))[:, count:] @ self._loads[count:]
         further = np.array([solver.solve(load) for load in loads])
-        return np.array([self._errors(one, weights, further) for one in responses])
+        missed = np.sqrt(self._model.cells_missed(further))
+        return np.array([self._errors(one, weights, further, missed) for one in responses])
 
-    def _errors(self, response: OpenResponse, weights: np.ndarray, further: np.ndarray) -> np.ndarray:
-        squared, count = response.squared.real, self._count
+    def _errors(
+        self, response: OpenResponse, weights: np.ndarray, further: np.ndarray, missed: np.ndarray
+    ) -> np.ndarray:
+        squared, count, products = response.squared.real, self._count, self._model.pencil.products
         held = self._outside.impedance(float(np.sqrt(squared)))[self._known, self._modes]
         of_motions = -(weights / self._restoring(squared))[:, count:] @ held[:, count:].T
         of_motions[:, self.own] += weights[:, :count]
         dual = dual_motions(response, of_motions)
         loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
-        bent = self.undamped(response)[:, count:]
-        radiated = self._model.pencil.products(loaded, self._loads[count:]) @ bent.T
-        return np.asarray(sum(functional_errors(response, dual, further)) + squared * np.abs(radiated))
+        radiated = products(loaded, self._loads[count:]) @ self.undamped(response)[:, count:].T
+        by_cells = products(missed, np.sqrt(self._model.cells_missed(response.scattered)))
+        return np.asarray(sum(functional_errors(response, dual)) + squared * (np.abs(radiated) + by_cells))
 
     def undamped(self, response: OpenResponse) -> np.ndarray:
         """Return the amplitudes of all modes without drag, see `of`."""

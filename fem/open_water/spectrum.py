@@ -22,7 +22,7 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
+from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
 from hydroelastic.fem.open_water.round_plates import OF_LOADS
@@ -31,6 +31,7 @@ from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
 from hydroelastic.fem.open_water.spectrum_rows import (
     air_gaps_of_plates,
     along_plates,
+    estimated_about_peaks,
     motion_errors,
     order_of_motions,
     points_of_plates,
@@ -55,6 +56,8 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 _FIRST = 33
 # Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
+# Smallest tolerance of the orders for that of the loads of round plates.
+_LEAST = 0.02
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
 _LAST = 0.7
 # How often all intervals between frequencies are halved for the sake of the moments.
@@ -79,16 +82,21 @@ class SpectrumSolution:
     error: float
 
 
-def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> SpectrumSolution:
+def solve_spectrum(
+    problem: OpenWaterProblem, request: SpectrumRequest, tolerance: float | None = None
+) -> SpectrumSolution:
     """Solve for the statistics of responses to irregular waves (collective).
 
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
-    same frequencies in the end.
+    same frequencies in the end. Loads of round plates are sums over the orders: where their errors are too large, all
+    orders are solved anew to a smaller tolerance.
 
     Args:
         problem: the open water.
         request: spectrum, duration, points.
+        tolerance: of the statistics; ``None`` for that of the problem.
     """
+    tolerance = tolerance or problem.tolerance
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
     while _bends(attempts[-1].result, request, problem.tolerance):
         # No other analysis asks for these orders: their solvers need not be kept.
@@ -98,10 +106,14 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
     curves = [one.result.at(omegas) for one in attempts]
     table = _table(problem, request, curves)
     beyond = table.largest_error("truncation_error")
-    if request.highest is None and beyond > _BEYOND * problem.tolerance:
+    if request.highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
-        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
-        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]))
+        wider = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST)
+        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]), tolerance)
+    of_plates = max((plate.relative_error for plate in table.plates), default=0.0)
+    if problem.tank.geometry.is_revolved and of_plates > tolerance and problem.tolerance > _LEAST * tolerance:
+        finer = max(0.5 * problem.tolerance * tolerance / of_plates, _LEAST * tolerance)
+        return solve_spectrum(replace(problem, tolerance=finer, solvers={}), request, tolerance)
     return SpectrumSolution(
         table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
@@ -148,7 +160,7 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
         for _ in range(_HALVINGS + 1):
             curves = certified_curves(solver, incident, omegas, frequencies, problem.tolerance)
             with problem.watch.stage("errors"):
-                places = _estimated(curves)
+                places = estimated_about_peaks(curves)
                 causes = [response_errors(curves.responses[place]) for place in places]
             total = np.array([cause.total.max() for cause in causes])
             joined = joined_errors(causes, float(curves.errors.max()))
@@ -171,18 +183,6 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
     return best_over_band(problem, band, solve)
 
 
-def _estimated(curves: Curves) -> list[int]:
-    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
-    sizes = np.abs(curves.motions)
-    found = set(estimated_places(curves.omegas))
-    for size in sizes.T:
-        top = int(size.argmax())
-        low = np.flatnonzero(size < 0.5 * size[top])
-        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
-        found.update(int(place) for place in sides)
-    return sorted(found)
-
-
 def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
@@ -192,7 +192,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
     deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
-    plates = list(along_plates(problem.tank, request, curves, _estimated(curves[0]), motions, drag))
+    plates = list(along_plates(problem.tank, request, curves, motions, drag))
     further, gaps = _further_orders(problem, request, omegas), slice(len(rows) - len(request.air_gaps), len(rows))
     if request.air_gaps:
         for water, uncertain in (

@@ -15,6 +15,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.irregular_results import PlateStatistics
 from hydroelastic.fem.open_water.outside import displacement_at
+from hydroelastic.fem.open_water.radiation import estimated_places
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import load_errors, plate_deflection
 from hydroelastic.fem.open_water.results import Floats, PlateDeflection
@@ -92,8 +93,20 @@ def motion_errors(models: list[OpenModel], errors: np.ndarray, motions: np.ndarr
     return deviation
 
 
+def estimated_about_peaks(curves: Curves) -> list[int]:
+    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
+    sizes = np.abs(curves.motions)
+    found = set(estimated_places(curves.omegas))
+    for size in sizes.T:
+        top = int(size.argmax())
+        low = np.flatnonzero(size < 0.5 * size[top])
+        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
+        found.update(int(place) for place in sides)
+    return sorted(found)
+
+
 def along_plates(
-    tank: Tank, request: SpectrumRequest, curves: list[Curves], places: list[int], motions: np.ndarray, drag: np.ndarray
+    tank: Tank, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateDeflection]:
     """Yield what acts along each beam, and along the diameter of each round plate, its points among the positions.
 
@@ -101,7 +114,6 @@ def along_plates(
         tank: the open water in SI units.
         request: the request.
         curves: the transfer functions of the orders that move.
-        places: indices of frequencies at which errors of beams by the mesh are estimated.
         motions: of all orders per elevation, shape (n, unknowns).
         drag: linear damping in place of each drag.
     """
@@ -122,6 +134,7 @@ def along_plates(
             for response, motion in zip(one.responses, part, strict=True)
         ]
         model = one.solver.model
+        places = estimated_about_peaks(one)
         known = load_errors(model, [one.responses[place] for place in places])
         # As errors of the motions, about a resonance they change by orders of magnitude.
         meshed = {

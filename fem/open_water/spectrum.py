@@ -54,10 +54,10 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
-# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
+# Part of the tolerance that waves beyond the frequencies, or errors of loads, may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
 # Smallest tolerance of the orders for that of the loads of round plates.
-_LEAST = 0.02
+_LEAST = 1e-3
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
 _LAST = 0.7
 # How often all intervals between frequencies are halved for the sake of the moments.
@@ -105,15 +105,17 @@ def solve_spectrum(
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas) for one in attempts]
     table = _table(problem, request, curves)
-    beyond = table.largest_error("truncation_error")
-    if request.highest is None and beyond > _BEYOND * tolerance:
+    beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
+    highest, finer = request.highest, problem.tolerance
+    if highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
-        wider = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST)
-        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]), tolerance)
-    of_plates = max((plate.relative_error for plate in table.plates), default=0.0)
-    if problem.tank.geometry.is_revolved and of_plates > tolerance and problem.tolerance > _LEAST * tolerance:
-        finer = max(0.5 * problem.tolerance * tolerance / of_plates, _LEAST * tolerance)
-        return solve_spectrum(replace(problem, tolerance=finer, solvers={}), request, tolerance)
+        highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
+    if problem.tank.geometry.is_revolved and table.plates and transfer > _BEYOND * tolerance:
+        # Errors of loads fall at least like the square root of those of waves.
+        finer = max(finer * (0.5 * tolerance / transfer) ** 2, _LEAST * tolerance)
+    if highest != request.highest or finer < problem.tolerance:
+        problem = replace(problem, tolerance=finer, solvers=problem.solvers if finer == problem.tolerance else {})
+        return solve_spectrum(problem, replace(request, highest=highest), tolerance)
     return SpectrumSolution(
         table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),

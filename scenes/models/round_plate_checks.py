@@ -23,18 +23,6 @@ def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
         )
 
 
-def analyses_take_round_plates(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield analyses that are not solved to their tolerance for elastic plates of revolution."""
-    for index, analysis in enumerate(scene.analysis if scene.plates else ()):
-        if analysis.kind == "spectrum":
-            yield problem_at(
-                ("analysis", index, "kind"),
-                analysis.kind,
-                "it is computed for sections and rigid solids only, and a body is a round plate",
-                remedy="Leave it out",
-            )
-
-
 def round_plates_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield plates whose stiffness or mass is lost in rounding beside that of the liquid."""
     for index, plate in scene.plates:

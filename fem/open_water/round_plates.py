@@ -82,6 +82,8 @@ def plate_load_errors(model: OpenModel, index: int, solutions: list[OpenResponse
     Beside `PlateModes.errors` they are what the upper half of the polynomials adds: the difference of two truncations.
     """
     modes, plate = model.plate_modes[index], plate_of(model.basin.tank.bodies[index])
+    if not (plate.bends and plate.flexural_rigidity):
+        return np.zeros((len(solutions), 2, len(solutions[0].incident)))
     radii: np.ndarray = np.linspace(plate.inner_radius, plate.radius, _SECTIONS)
     order = np.array([model.basin.tank.geometry.order])
     whole, last = (

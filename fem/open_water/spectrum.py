@@ -54,7 +54,8 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
-# Part of the tolerance that waves beyond the frequencies, or errors of loads, may leave, and the largest factor by which these are widened.
+# Part of the tolerance that waves beyond the frequencies, or errors of transfer functions about an axis, may leave, and
+# the largest factor by which frequencies are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
 # Smallest tolerance of the orders for that of the loads of round plates.
 _LEAST = 1e-3

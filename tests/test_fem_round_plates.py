@@ -31,7 +31,7 @@ from hydroelastic.modal.plate.line_modes import PlateLine, dry_modes
 from hydroelastic.physics.geometry import Geometry
 from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import tank
-from hydroelastic.physics.wave_spectrum import PeakedSpectrum
+from hydroelastic.physics.wave_spectrum import TabulatedSpectrum
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.open_water.physics import open_water_problem
 
@@ -242,8 +242,8 @@ def test_errors_of_moments_and_shear_forces_are_told(
     monkeypatch.setattr(plate_modes, "_FURTHER", 72)
     fine = solved(body, depth, 1e-6, request).response[0].plates[0]
     found = [told / error for plate in plates for error, told in errors_and_told(plate, fine)]
-    print("ratios", found)
-    assert 1.0 < min(found) <= max(found) < 40.0
+    # Measured 2.1 to 10.
+    assert 1.0 < min(found) <= max(found) < 20.0
 
 
 @pytest.mark.slow
@@ -296,12 +296,13 @@ def test_bending_resonances_are_found_and_counted() -> None:
 def test_irregular_waves_are_regular_ones_summed() -> None:
     """Transfer functions at points on both sides of the axis, of all orders together, against regular waves."""
     body = {"radius": 1.0, "youngs_modulus": 1e7, "thickness": 0.02, "poisson_ratio": 0.4, "mass_per_area": 5.0}
-    spectrum = PeakedSpectrum(height=0.1, period=9.0, enhancement=3.3)
+    # Nothing is beyond a table.
+    spectrum = TabulatedSpectrum(omega=(1.0, 1.5, 2.0, 2.5), values=(0.0, 1e-3, 8e-4, 0.0))
     request = SpectrumRequest(spectrum=spectrum, words="", points=((0, (0.5, 0.0)), (0, (-0.7, 0.0))), positions=11)
     solution = solved(body, 2.0, 1e-2, request)
     assert solution.status == "ok"
     (found,) = solution.spectrum
-    omegas = (0.7, 1.5, 2.5)
+    omegas = (1.1, 1.8, 2.4)
     (regular,) = solved(body, 2.0, 1e-4, ResponseRequest(omega=omegas, positions=21)).response
     (plate,) = regular.plates
     assert plate.strain is not None

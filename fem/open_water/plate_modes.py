@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.fem.bodies.round_plate import RoundPlateModel, RoundShapes
-from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import weighed_loads
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
@@ -37,19 +36,22 @@ class PlateModes:
     Attributes:
         bends: whether the plate is not rigid.
         shapes: the dry modes.
-        own: places of the modes of the model among the body unknowns.
+        count: number of modes of the model, the first ones of these.
+        own: their places among the body unknowns.
+        loads: ∫ρφₖ q of each mode on the potential, own entries of free unknowns, shape (modes, free unknowns).
     """
 
     def __init__(self, model: OpenModel, index: int) -> None:
         """Integrate over the plate (collective)."""
         pencil, basin = model.pencil, model.basin
-        count, first = pencil.bodies[index].size, sum(body.size for body in pencil.bodies[:index])
-        self._model, self.own, self._count = model, slice(first, first + count), count
+        first = sum(body.size for body in pencil.bodies[:index])
+        self.count = count = pencil.bodies[index].size
+        self._model, self.own = model, slice(first, first + count)
         plate = RoundPlateModel(tank=basin.tank, index=index)
         self.bends = plate.plate.bends
         self.shapes = RoundShapes(plate.plate, count + _FURTHER * bool(count), spare=0)
         self._body = plate.in_shapes(self.shapes)
-        self._loads = weighed_loads(pencil.liquid, self._body)[:, pencil.free].astype(complex)
+        self.loads = weighed_loads(pencil.liquid, self._body)[:, pencil.free].astype(complex)
         self._surface = WettedSurface(pencil.liquid, self._body, model.shortest)
         bodies = (*pencil.bodies[:index], self._body, *pencil.bodies[index + 1 :])
         self._outside = outside_of(basin, bodies, model.attachments)
@@ -67,56 +69,23 @@ class PlateModes:
         """
         squared, outside = response.squared.real, self._outside
         omega = float(np.sqrt(squared))
-        held = motions @ outside.impedance(omega)[self._known, self._modes]
+        held = motions @ self.held(squared)
         held -= 1j * omega * (drag * (motions @ outside.paths[:, self._known].T)) @ outside.paths[:, self._modes]
-        amplitudes = (squared * self._pressures(response, motions) - held) / self._restoring(squared)
-        amplitudes[:, : self._count] = motions[:, self.own]
+        amplitudes = (squared * self._pressures(response, motions) - held) / self.restoring(squared)
+        amplitudes[:, : self.count] = motions[:, self.own]
         return np.asarray(amplitudes)
 
     def omitted(self, response: OpenResponse) -> np.ndarray:
         """Return the effect of the further modes on the amplitude of the outgoing wave over the incident one, shape
         (incident,) (collective)."""
-        motions, count = response.motions, self._count
+        motions, count = response.motions, self.count
         further = (self.undamped(response) * self._pressures(response, motions))[:, count:].sum(axis=1)
         return np.asarray(np.abs(further) / response.incidence.powers[response.incident])
 
-    def errors(self, responses: list[OpenResponse], weights: np.ndarray) -> np.ndarray:
-        """Estimate errors of loads J = Σ bₖaₖ in each incident wave of a unit of c (collective).
-
-        Further modes have aₖ = fₖ/(Kₖ − λmₖ): with yₖ = bₖ/(Kₖ − λmₖ), J is a functional of the motions and of the
-        scattered waves whose dual solution has the amplitudes yₖ, and those of the modes of the model that follow, see
-        `functional_errors`. Hardly any waves radiate from further modes: their part of its potential is that of the
-        highest frequency, and, as it ends close to the plate, |A_λ(ψ_y − ψ_yh, ψ − ψ_h)| is bounded cell by cell. What
-        the waves radiated by these modes change J by is λΣ aₖ times the pressure of the dual solution on mode k.
-
-        Args:
-            responses: to waves.
-            weights: bₖ, shape (loads, modes).
-
-        Returns:
-            Shape (responses, loads, incident).
-        """
-        pencil, count = self._model.pencil, self._count
-        highest = max(one.squared.real for one in responses)
-        solver = pencil.solver()
-        solver.shift(highest)
-        loads = (weights / self._restoring(highest))[:, count:] @ self._loads[count:]
-        further = np.array([solver.solve(load) for load in loads])
-        missed = np.sqrt(self._model.cells_missed(further))
-        return np.array([self._errors(one, weights, further, missed) for one in responses])
-
-    def _errors(
-        self, response: OpenResponse, weights: np.ndarray, further: np.ndarray, missed: np.ndarray
-    ) -> np.ndarray:
-        squared, count, products = response.squared.real, self._count, self._model.pencil.products
-        held = self._outside.impedance(float(np.sqrt(squared)))[self._known, self._modes]
-        of_motions = -(weights / self._restoring(squared))[:, count:] @ held[:, count:].T
-        of_motions[:, self.own] += weights[:, :count]
-        dual = dual_motions(response, of_motions)
-        loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
-        radiated = products(loaded, self._loads[count:]) @ self.undamped(response)[:, count:].T
-        by_cells = products(missed, np.sqrt(self._model.cells_missed(response.scattered)))
-        return np.asarray(sum(functional_errors(response, dual)) + squared * (np.abs(radiated) + by_cells))
+    def held(self, squared: float) -> np.ndarray:
+        """Return forces of springs and dampers on all modes by a unit of each body unknown, shape (unknowns, modes)."""
+        impedance = self._outside.impedance(float(np.sqrt(squared)))
+        return np.asarray(impedance[self._known, self._modes])
 
     def undamped(self, response: OpenResponse) -> np.ndarray:
         """Return the amplitudes of all modes without drag, see `of`."""
@@ -127,8 +96,9 @@ class PlateModes:
         """∫ρΨ on all modes of all waves, shape (incident, modes)."""
         surface, waves = self._surface, [response.incidence.planes[place] for place in response.incident]
         given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
-        scattered = self._model.pencil.products(response.potentials(np.eye(len(motions)), motions), self._loads)
+        scattered = self._model.pencil.products(response.potentials(np.eye(len(motions)), motions), self.loads)
         return surface.integrals(given, surface.shapes) + scattered
 
-    def _restoring(self, squared: float) -> np.ndarray:
+    def restoring(self, squared: float) -> np.ndarray:
+        """Return Kₖ − λmₖ of the modes in air and still water, shape (modes,)."""
         return self._body.stiffness - squared * np.diag(self._body.mass)

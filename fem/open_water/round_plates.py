@@ -30,8 +30,6 @@ OF_LOADS = 0.1
 _ANGLES, _PHASES = 73, 24
 # Ratio of successive orders beyond the last ones, at most, and a margin of what these add.
 _SLOWEST, _MARGIN = 0.5, 3.0
-# Radii at which errors of loads are estimated, both edges or the axis included.
-_SECTIONS = 7
 
 
 def deflections_of_order(
@@ -51,7 +49,7 @@ def deflections_of_order(
         moved: the motions and the linear damping in place of drag of each, see `PlateModes.of`.
         towards: direction of the waves.
         reduced: relative errors of the responses by the reduced basis, shape (frequencies,).
-        of_loads: errors of moment and shear force of each plate by its index, see `plate_load_errors`, shape
+        of_loads: errors of moment and shear force of each plate by its index, see `plate_load_errors.py`, shape
             (frequencies, 2, waves).
         radii_of: returns the ascending radii of a plate by its index among the bodies, m.
     """
@@ -64,7 +62,7 @@ def deflections_of_order(
         bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
         derivatives = (factors * np.array(bent) @ values[:, None])[..., None, :]
         order = np.array([model.basin.tank.geometry.order])
-        largest = np.abs(_bent(plate_of(model.basin.tank.bodies[index]), radii, derivatives, order)).max(axis=-1)
+        largest = np.abs(bent_by(plate_of(model.basin.tank.bodies[index]), radii, derivatives, order)).max(axis=-1)
         meshed = of_loads.get(index, np.zeros((len(responses), 2, 1))).swapaxes(0, 1) * np.abs(factors[..., 0])
         meshed = meshed / length ** np.array([2.0, 3.0])[:, None, None]
         yield RoundDeflection(
@@ -73,26 +71,6 @@ def deflections_of_order(
             derivatives=derivatives,
             uncertain=meshed[..., None] + reduced[:, None, None] * largest,
         )
-
-
-def plate_load_errors(model: OpenModel, index: int, solutions: list[OpenResponse]) -> np.ndarray:
-    """Return errors of moment and shear force over the rigidity anywhere on a round plate, per c of each incident wave
-    and in units of the basin, shape (solutions, 2, incident) (collective).
-
-    Beside `PlateModes.errors` they are what the upper half of the polynomials adds: the difference of two truncations.
-    """
-    modes, plate = model.plate_modes[index], plate_of(model.basin.tank.bodies[index])
-    if not (plate.bends and plate.flexural_rigidity):
-        return np.zeros((len(solutions), 2, len(solutions[0].incident)))
-    radii: np.ndarray = np.linspace(plate.inner_radius, plate.radius, _SECTIONS)
-    order = np.array([model.basin.tank.geometry.order])
-    whole, last = (
-        _bent(plate, radii, values[..., None, :], order)[..., 0, :].swapaxes(1, 2).reshape(2 * _SECTIONS, -1)
-        for values in modes.shapes.bent(radii)
-    )
-    added = np.array([np.abs(last @ modes.undamped(one).T) for one in solutions])
-    errors = (modes.errors(solutions, whole) + added).reshape(len(solutions), 2, _SECTIONS, -1)
-    return np.asarray(errors.max(axis=2))
 
 
 def radii_along(tank: Tank, index: int, positions: int) -> Floats:
@@ -122,7 +100,7 @@ def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDe
     deflection, along = found.derivatives[0], found.derivatives[2]
     orders = np.arange(deflection.shape[-2])
     rigidity = plate.flexural_rigidity if plate.bends else 0.0
-    moment, shear = rigidity * _bent(plate, found.radii, found.derivatives, orders)
+    moment, shear = rigidity * bent_by(plate, found.radii, found.derivatives, orders)
     moment_error, shear_error = rigidity * found.uncertain.sum(axis=-1) + [left_out(moment), left_out(shear)]
     behind = (-1.0) ** orders[:, None]
 
@@ -151,6 +129,12 @@ def with_largest(tank: Tank, plate: PlateDeflection, found: RoundDeflection) -> 
     return replace(plate, largest_strain=strain, largest_stress=stress)
 
 
+def bent_by(plate: RoundPlate, radii: Floats, derivatives: np.ndarray, orders: np.ndarray) -> np.ndarray:
+    """Bending moment and shear force along the radius over the rigidity, each as one of the derivatives."""
+    along, across, _ = _polar(radii, derivatives, orders)
+    return np.array([along + plate.poisson_ratio * across, derivatives[3]])
+
+
 def left_out(orders: np.ndarray) -> Floats:
     """Return what the orders left out add to a sum over the orders anywhere, if they go on as the last two.
 
@@ -166,12 +150,6 @@ def left_out(orders: np.ndarray) -> Floats:
     ratio = np.divide(last, before, out=np.full_like(last, _SLOWEST), where=falls)
     left: Floats = _MARGIN * last * ratio / (1.0 - ratio)
     return left
-
-
-def _bent(plate: RoundPlate, radii: Floats, derivatives: np.ndarray, orders: np.ndarray) -> np.ndarray:
-    """Bending moment and shear force along the radius over the rigidity, each as one of the derivatives."""
-    along, across, _ = _polar(radii, derivatives, orders)
-    return np.array([along + plate.poisson_ratio * across, derivatives[3]])
 
 
 def _polar(radii: Floats, derivatives: np.ndarray, orders: np.ndarray) -> tuple[np.ndarray, ...]:

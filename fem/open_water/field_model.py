@@ -132,8 +132,8 @@ class OpenModel:
     @cached_property
     def plate_modes(self) -> dict[int, PlateModes]:
         """The dry modes of each round plate, by its index among the bodies (collective)."""
-        bodies = enumerate(self.basin.tank.bodies)
-        return {index: PlateModes(self, index) for index, body in bodies if isinstance(body, RoundPlate)}
+        plates = [index for index, body in enumerate(self.basin.tank.bodies) if isinstance(body, RoundPlate)]
+        return {one: PlateModes(self.basin, self.pencil, self.attachments, self.shortest, one) for one in plates}
 
     @cached_property
     def scale(self) -> MotionScale:

@@ -7,6 +7,7 @@ from math import pi
 import numpy as np
 from scipy.special import zeta
 
+from hydroelastic.fem.open_water.bent_plates import omitted_effect
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.outside import attachment_paths
@@ -21,12 +22,12 @@ _ORDER = 6.0
 def truncation(solution: OpenResponse) -> float:
     """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
 
-    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `PlateModes`.
+    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `bent_plates`.
     """
     model, motions = solution.model, solution.motions
     sizes = np.maximum(np.abs(motions).max(axis=1, initial=0.0), np.finfo(float).tiny)
     omitted = [omitted_deflection(solution, index) / sizes for index in model.basin.tank.beams]
-    omitted += [modes.omitted(solution) for modes in model.plate_modes.values()]
+    omitted += [omitted_effect(modes, solution) for modes in model.plate_modes.values()]
     return max((float(one.max()) for one in omitted), default=0.0)
 
 

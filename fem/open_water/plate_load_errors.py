@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydroelastic.fem.bodies.round_plate import plate_of
+from hydroelastic.fem.open_water.bent_plates import bent_without_drag
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
@@ -51,7 +52,7 @@ def plate_load_errors(model: OpenModel, index: int, solutions: list[OpenResponse
     missed = np.sqrt(model.cells_missed(further))
     errors = np.array(
         [
-            _meshed(model, index, one, weights, further, missed) + np.abs(last @ modes.undamped(one).T)
+            _meshed(model, index, one, weights, further, missed) + np.abs(last @ bent_without_drag(modes, one).T)
             for one in solutions
         ]
     )
@@ -83,7 +84,7 @@ def _meshed(
     of_motions[:, modes.own] += weights[:, : modes.count]
     dual = dual_motions(response, of_motions)
     loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
-    radiated = products(loaded, modes.loads[further_modes]) @ modes.undamped(response)[:, further_modes].T
+    radiated = products(loaded, modes.loads[further_modes]) @ bent_without_drag(modes, response)[:, further_modes].T
     by_cells = products(missed, np.sqrt(model.cells_missed(response.scattered)))
     found: np.ndarray = sum(functional_errors(response, dual)) + squared * (np.abs(radiated) + by_cells)
     return found

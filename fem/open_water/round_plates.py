@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from hydroelastic.fem.bodies.round_plate import plate_of
+from hydroelastic.fem.open_water.bent_plates import bent
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.results import Floats, PlateDeflection, RoundDeflection
@@ -46,7 +47,7 @@ def deflections_of_order(
     Args:
         model: the problem of the order.
         responses: to waves, shape (frequencies,).
-        moved: the motions and the linear damping in place of drag of each, see `PlateModes.of`.
+        moved: the motions and the linear damping in place of drag of each, see `bent`.
         towards: direction of the waves.
         reduced: relative errors of the responses by the reduced basis, shape (frequencies,).
         of_loads: errors of moment and shear force of each plate by its index, see `plate_load_errors.py`, shape
@@ -59,8 +60,8 @@ def deflections_of_order(
         radii = radii_of(index)
         scaled = np.asarray(radii / length, dtype=np.float64)
         values = modes.shapes.bent(scaled)[0] / length ** np.arange(4.0)[:, None, None]
-        bent = [modes.of(one, *own) for one, own in zip(responses, moved, strict=True)]
-        derivatives = (factors * np.array(bent) @ values[:, None])[..., None, :]
+        amplitudes = [bent(modes, one, *own) for one, own in zip(responses, moved, strict=True)]
+        derivatives = (factors * np.array(amplitudes) @ values[:, None])[..., None, :]
         order = np.array([model.basin.tank.geometry.order])
         largest = np.abs(bent_by(plate_of(model.basin.tank.bodies[index]), radii, derivatives, order)).max(axis=-1)
         meshed = of_loads.get(index, np.zeros((len(responses), 2, 1))).swapaxes(0, 1) * np.abs(factors[..., 0])

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 import pytest
 from mpi4py import MPI
 from open_cases import TOO_SMALL, complex_of
+from scipy.interpolate import CubicSpline
 from scipy.special import h1vp, jvp
 from solid_references import GROUPS, compared
 from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, solved
@@ -250,3 +252,31 @@ def test_a_released_cylinder_moves_as_it_must_in_the_end(depth: float, power: in
     np.testing.assert_allclose(table.displacement[:2, 0], known, atol=5e-6)
     # Measured: later terms are 1e-2 of it.
     assert table.displacement[2, 0] * times[2] ** power == pytest.approx(tail, rel=0.05)
+
+
+@pytest.mark.parametrize(("depth", "waves_from"), [(math.inf, "left"), pytest.param(2.0, "right", marks=SLOW)])
+def test_the_pressure_along_a_hull_gives_the_forces(depth: float, waves_from: Literal["left", "right"]) -> None:
+    """That on a free hemisphere is C ξ − ω²M ξ: a wrong sign, order, phase or factor of an order is of order 1."""
+    omega = 3.0
+    request = ResponseRequest(omega=(omega,), hull_pressures=True, waves_from=waves_from)
+    body = {"shape": "sphere", "radius": 1.0, "vertical_centre_of_gravity": -0.5}
+    (table,) = solved([body], depth, 1e-2, request).response
+    (hull,) = table.hulls
+    assert hull.partial_pressures is not None
+    pressures, points = hull.partial_pressures[0, 0], hull.points[len(hull.points) // 2 :]
+    below = np.linspace(0.0, 0.5 * math.pi, 2001)
+    # From the axis to the water, and spline beyond the last points.
+    heaving, surging = (
+        CubicSpline(np.arctan2(-points[::-1, 1], points[::-1, 0]), p[::-1])(below) for p in pressures[:2]
+    )
+    heave = 2.0 * math.pi * np.trapezoid(heaving * np.sin(below) * np.cos(below), below)
+    surge = -math.pi * np.trapezoid(surging * np.cos(below) ** 2, below)
+    mass, stiffness = DENSITY * 2.0 / 3.0 * math.pi, DENSITY * GRAVITY * math.pi
+    motions = dict(zip(table.dofs, table.amplitudes[0, 0], strict=True))
+    # Measured 2e-5.
+    assert heave == pytest.approx((stiffness - omega**2 * mass) * motions["heave"], rel=1e-3)
+    assert surge == pytest.approx(-(omega**2) * mass * motions["surge"], rel=1e-3)
+    # Both halves of the section meet at the axis, and hull points at the bow have every other order turned.
+    signs = (-1.0) ** np.arange(len(pressures))
+    np.testing.assert_allclose(hull.pressure[0, 0, 0], signs @ pressures[:, -1], rtol=1e-12)
+    assert np.all(np.diff(hull.points[:, 0]) >= 0.0)

@@ -6,10 +6,10 @@ the geometry, their generalized mass and stiffness are c m∫W² r dr and c (D�
 
 from __future__ import annotations
 
-from functools import partial
 from math import ceil, pi
 
 import numpy as np
+from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from hydroelastic.fem.bodies.model import BodyModel
@@ -35,15 +35,18 @@ class RoundPlateModel(BodyModel):
 
     def moving(self, count: int, parity: Parity | None) -> Body:
         """See `BodyModel.moving`; a rigid plate has its rigid motions alone."""
-        plate, order, measure = self.plate, self.tank.geometry.order, self.tank.geometry.measure
-        shapes = RoundShapes(plate.of_order(order), count)
+        return self.in_shapes(RoundShapes(self.plate.of_order(self.tank.geometry.order), count))
+
+    def in_shapes(self, shapes: RoundShapes) -> Body:
+        """Return the plate in given shapes."""
+        plate, measure = self.plate, self.tank.geometry.measure
         squares, bending = measure * shapes.squares, measure * shapes.bending
         # Not asked for: half-planes have no halves.
         symmetric: Parity = "symmetric"
         restoring = float(plate.hydrostatic) * self.tank.level_of(self.index).jump * squares
         return Body(
             surface=body_name(self.index + 1),
-            shapes=partial(_upwards, shapes),
+            shapes=_Upwards(shapes),
             wavenumber=pi * shapes.count / (plate.radius - plate.inner_radius),
             dofs=shapes.dofs,
             parities=(symmetric,) * shapes.count,
@@ -88,13 +91,14 @@ class RoundShapes:
     Args:
         plate: the plate, with its order.
         count: number of shapes, rigid ones included; of a rigid plate these alone.
+        spare: polynomials beyond this number: with more of them than shapes, all of these are dry modes.
 
     Attributes:
         squares: ∫W² r dr, shape (shapes,).
         bending: the energy of bending and tension likewise, shape (shapes,).
     """
 
-    def __init__(self, plate: RoundPlate, count: int) -> None:
+    def __init__(self, plate: RoundPlate, count: int, spare: int | None = None) -> None:
         """Find the shapes."""
         assert plate.order is not None
         self._plate, rigid = plate, plate.rigid_motions
@@ -109,8 +113,7 @@ class RoundShapes:
             rigidity=plate.flexural_rigidity if plate.bends else 1.0,
             tension=plate.tension if plate.bends else 0.0,
         )
-        # More polynomials than shapes: all of these are dry modes, of whatever number there are.
-        self._modes = dry_modes(line, self.count + FEW_MODES)
+        self._modes = dry_modes(line, self.count + (max(FEW_MODES, self.count) if spare is None else spare))
         edge = self._modes.values(np.array([plate.radius]))[0, : self.count]
         self._factors = np.where([dof.is_rotation for dof in self.dofs], plate.radius, 1.0) / edge
         self.squares: NDArray[np.float64] = self._modes.squares[: self.count] * self._factors**2
@@ -129,6 +132,57 @@ class RoundShapes:
         values: NDArray[np.float64] = (self._modes.values(inside, derivative)[:, : self.count] * self._factors).T
         return values
 
+    def bent(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return W, W′, W″ and ∂(ΔₙW)/∂r at radii by the loads that bend the plate like its shapes, and the part of
+        them in the last third of the polynomials, shape (2, 4, shapes, points); of shapes without `spare` polynomials.
+
+        The last one is zero of membranes and rigid plates.
+        """
+        values = np.zeros((2, 4, self.count, len(radii)))
+        values[0, :3] = [self.values(radii, derivative) for derivative in range(3)]
+        if self._plate.bends and self._plate.flexural_rigidity:
+            laplacian, values[:, 3] = self._laplacians(radii).swapaxes(0, 1)
+            off_axis, order = radii > 0.0, self._plate.order or 0
+            r, (value, slope) = radii[off_axis], values[0, :2][..., off_axis]
+            values[0, 2][:, off_axis] = laplacian[0][:, off_axis] - slope / r + order**2 * value / r**2
+            values[1, 2] = laplacian[1]
+        return values
+
+    def _laplacians(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return Δₙw and its derivative at radii, and the part of both in the last polynomials, shape (2, 2, shapes,
+        points).
+
+        With u = DΔₙw − Tw the load is Δₙu, and u = (1 − ν)D(w′/r − n²w/r²) − Tw at free edges. Sums over the shapes
+        converge faster than those of the derivatives of w.
+        """
+        count = self.count
+        plate, order = self._plate, float(self._plate.order or 0)
+        nodes, weights = leggauss(2 * count + int(order) + 4)
+        half = 0.5 * (plate.radius - plate.inner_radius)
+        inside = plate.inner_radius + half * (1.0 + nodes)
+        parts = [self.values(inside, 1), order / inside * self.values(inside)]
+        energy = sum((part * (half * weights * inside)) @ part.T for part in parts)
+        edges = np.array([plate.inner_radius, plate.radius])[int(plate.inner_radius == 0.0) :]
+        value, slope = (self.values(edges, derivative) for derivative in (0, 1))
+        rigidity = plate.flexural_rigidity
+        held = (1.0 - plate.poisson_ratio) * rigidity * (slope / edges - order**2 * value / edges**2)
+        held -= plate.tension * value
+        # ∫(u′v′ + n²uv/r²) r dr = −∫Δₙu v r dr for all v that vanish at the edges.
+        scale = 1.0 / np.sqrt(np.diag(energy) + self.squares)
+        corner = np.zeros((len(edges), len(edges)))
+        system = np.block([[scale[:, None] * energy * scale, scale[:, None] * value], [value.T * scale, corner]])
+        loads = np.vstack([-np.diag(self.bending) * scale[:, None], held.T])
+        combined = np.linalg.solve(system, loads)[:count] * scale[:, None]
+        whole = (combined + plate.tension * np.eye(count)) / rigidity
+        polynomials = self._modes.coefficients @ (self._factors[:, None] * whole)
+        degrees = np.arange(len(polynomials))
+        is_last = degrees >= count - count // 3
+        found = [
+            [(self._modes.plate.raw(len(degrees), radii, derivative) * kept) @ polynomials for derivative in (0, 1)]
+            for kept in (1.0, is_last)
+        ]
+        return np.array(found).swapaxes(-1, -2)
+
 
 def plate_of(body: object) -> RoundPlate:
     """Return a body that is a round plate."""
@@ -136,8 +190,16 @@ def plate_of(body: object) -> RoundPlate:
     return body
 
 
-def _upwards(
-    shapes: RoundShapes, points: NDArray[np.float64], normals: NDArray[np.float64], number: int
-) -> NDArray[np.float64]:
-    upwards: NDArray[np.float64] = shapes.values(points[0])[number] * normals[1]
-    return upwards
+class _Upwards:
+    """Normal displacements by shapes, all of which are evaluated together at the same points."""
+
+    def __init__(self, shapes: RoundShapes) -> None:
+        self._shapes = shapes
+        self._points: NDArray[np.float64] = np.empty((0, 0))
+        self._values: NDArray[np.float64] = self._points
+
+    def __call__(self, points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
+        if points is not self._points:
+            self._points, self._values = points, self._shapes.values(points[0])
+        upwards: NDArray[np.float64] = self._values[number] * normals[1]
+        return upwards

@@ -25,6 +25,7 @@ from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
+from hydroelastic.fem.open_water.plate_modes import PlateModes
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.fem.spectral_error import cell_errors
@@ -48,6 +49,7 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.attachments import Attachment, OutsideForces
 from hydroelastic.physics.local_waves import moving_parts
+from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 ANGLE = pi / 3.0
@@ -132,6 +134,12 @@ class OpenModel:
         return tuple(WettedSurface(self.pencil.liquid, body, self.shortest) for body in self.pencil.bodies)
 
     @cached_property
+    def plate_modes(self) -> dict[int, PlateModes]:
+        """The dry modes of each round plate, by its index among the bodies (collective)."""
+        plates = [index for index, body in enumerate(self.basin.tank.bodies) if isinstance(body, RoundPlate)]
+        return {one: PlateModes(self.basin, self.pencil, self.attachments, self.shortest, one) for one in plates}
+
+    @cached_property
     def scale(self) -> MotionScale:
         """Conversion of body unknowns to motions in SI units."""
         return motion_scale(self.basin, self.pencil.bodies)
@@ -144,13 +152,9 @@ class OpenModel:
     @cached_property
     def near_field(self) -> FarField:
         """The same half as far from the bodies (collective)."""
-        (low, floor), (high, ceiling) = self.basin.bounds
         left, right, bottom, top = extent_of_bodies(self.basin.tank)
-        return FarField(
-            self.pencil,
-            (0.5 * (low + left), 0.5 * (floor + bottom)),
-            (0.5 * (high + right), 0.5 * (ceiling + top)),
-        )
+        low, high = 0.5 * (np.array(self.basin.bounds) + [[left, bottom], [right, top]])
+        return FarField(self.pencil, (low[0], low[1]), (high[0], high[1]))
 
     @cached_property
     def stiffness(self) -> np.ndarray:
@@ -187,15 +191,22 @@ class OpenModel:
         Returns:
             Both energies, dimensionless, each of shape (potentials,).
         """
-        pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
+        return self.summed_over_cells(self.cells_missed(potentials, layer_weight))
+
+    def cells_missed(self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT) -> np.ndarray:
+        """The same in each own cell, shape (potentials, cells)."""
+        pencil = self.pencil
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        cells = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
-        corners = tip_points(self.basin.tank, half=False)
-        tips = cells_at(mesh, corners) if len(corners) else np.zeros(cells.shape[1], dtype=bool)
-        at_tips = mesh.comm.allreduce(cells[:, tips].sum(axis=1), op=MPI.SUM)
-        whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
-        return whole - at_tips, at_tips
+        weighed: np.ndarray = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
+        return weighed
+
+    def summed_over_cells(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Sum values of own cells, on the last axis, away from tips and at tips (collective)."""
+        mesh, corners = self.pencil.liquid.tank.mesh, tip_points(self.basin.tank, half=False)
+        tips = cells_at(mesh, corners) if len(corners) else np.zeros(values.shape[-1], dtype=bool)
+        away, at_tips = (mesh.comm.allreduce(values[..., own].sum(axis=-1), op=MPI.SUM) for own in (~tips, tips))
+        return away, at_tips
 
     @cached_property
     def _in_absorbing_layer(self) -> np.ndarray:

@@ -143,9 +143,9 @@ class OpenResponse:
         return self.potentials(np.eye(len(self.incident)), self.motions)
 
     @cached_property
-    def missed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Energy error of `scattered` away from tips and at tips, each of shape (incident,) (collective)."""
-        return self.model.energies_missed(self.scattered)
+    def missed(self) -> np.ndarray:
+        """Energy error of `scattered` in each own cell, shape (incident, cells)."""
+        return self.model.cells_missed(self.scattered)
 
     @property
     def reflected(self) -> float:

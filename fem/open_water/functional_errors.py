@@ -39,8 +39,8 @@ def functional_errors(response: OpenResponse, dual: np.ndarray) -> tuple[np.ndar
         Both errors of each J, each of shape (functionals, incident).
     """
     model, squared = response.model, abs(response.squared)
-    loaded = model.energies_missed(response.potentials(np.zeros((len(dual), len(response.incident))), dual))
-    away, tips = (np.sqrt(np.outer(one, other)) for one, other in zip(loaded, response.missed, strict=True))
+    loaded = model.cells_missed(response.potentials(np.zeros((len(dual), len(response.incident))), dual))
+    away, tips = model.summed_over_cells(np.sqrt(loaded[:, None] * response.missed))
     radiated = response.incidence.amplitudes((response.incidence.pressures - response.equations.radiated) @ dual.T)
     powers = response.incidence.powers @ np.abs(radiated) ** 2
     reflected = response.reflected * np.sqrt(np.outer(powers, response.scattered_powers))

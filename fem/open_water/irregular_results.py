@@ -31,7 +31,7 @@ class IrregularResponse(ErrorsByCause):
 
     Attributes:
         quantity: which.
-        unit: m, rad or m/s².
+        unit: m, rad or m/s², of moments N, of strain 1.
         significant_amplitude: mean of the highest third of the amplitudes.
         largest_amplitude: most probable largest amplitude in the duration.
         zero_crossing_period: s.
@@ -73,7 +73,9 @@ class AirGap:
 
 @dataclass(frozen=True, kw_only=True)
 class PlateStatistics(ErrorsByCause):
-    """Statistics along a beam in irregular waves, per metre of width. Each is of shape (p,).
+    """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width.
+
+    Each is of shape (p,).
 
     Attributes:
         body: its index among the bodies.
@@ -123,7 +125,7 @@ class SpectrumTable:
         mean_drift_error: its estimated error, N/m.
         mean_absorbed_power: mean power that linear damping from outside takes, W/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
-        plates: one for each beam.
+        plates: one for each beam and round plate.
         air_gaps: of the points over the water.
     """
 

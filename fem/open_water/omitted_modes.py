@@ -1,4 +1,4 @@
-"""Deflection of elastic bodies in waves in the dry modes that a solution leaves out."""
+"""Deflection of beams and round plates in waves in the dry modes that a solution leaves out."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from math import pi
 import numpy as np
 from scipy.special import zeta
 
+from hydroelastic.fem.open_water.bent_plates import omitted_effect
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.outside import attachment_paths
 
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes, where they fall like n⁻⁵: those of
-# round plates, and of beams whose load jumps where a section begins.
+# beams whose load jumps where a section begins.
 _TAIL = 0.25
 # Power of the wavenumber with which amplitudes of a uniform beam fall.
 _ORDER = 6.0
@@ -21,43 +22,31 @@ _ORDER = 6.0
 def truncation(solution: OpenResponse) -> float:
     """Largest deflection in the omitted dry modes, relative to the largest motion in the same wave.
 
-    About an axis, where waves of one order may hardly move a plate, relative to the elevation of the wave if that is
-    larger.
+    Of round plates, whose deflection has further dry modes, the effect of these on the waves: see `bent_plates`.
     """
-    model, tank = solution.model, solution.model.basin.tank
-    sizes = np.abs(solution.motions).max(axis=1, initial=0.0)
-    if tank.geometry.is_revolved:
-        sizes = np.maximum(sizes, solution.incidence.elevations[solution.incident])
-    omitted = [
-        omitted_deflection(solution, index)
-        for index, body in enumerate(model.pencil.bodies)
-        if body.size and tank.bodies[index].is_elastic
-    ]
-    return max((float((one / np.maximum(sizes, np.finfo(float).tiny)).max()) for one in omitted), default=0.0)
+    model, motions = solution.model, solution.motions
+    sizes = np.maximum(np.abs(motions).max(axis=1, initial=0.0), np.finfo(float).tiny)
+    omitted = [omitted_deflection(solution, index) / sizes for index in model.basin.tank.beams]
+    omitted += [omitted_effect(modes, solution) for modes in model.plate_modes.values()]
+    return max((float(one.max()) for one in omitted), default=0.0)
 
 
 def omitted_deflection(solution: OpenResponse, index: int) -> np.ndarray:
-    """Largest deflection of an elastic body in the omitted dry modes in each wave, shape (incident,).
+    """Largest deflection of a beam in the omitted dry modes in each wave, shape (incident,).
 
     Shapes of a uniform beam with free ends, whose fourth derivative is κ⁴W, take parts of a smooth load that fall
     like κ⁻²: their amplitudes fall like κ⁻⁶, κₙ l = (n − ½)π, in even and in odd ones alike. |W| = 2 at the ends.
-
-    About an axis times the number of orders that move it, ka and one more, whose deflections add up.
     """
     model, tank = solution.model, solution.model.basin.tank
     first, count = sum(body.size for body in model.pencil.bodies[:index]), model.pencil.bodies[index].size
     last = np.abs(solution.motions[:, first + max(count - 2, 0) : first + count])
-    if index not in tank.beams or not tank.beams[index].is_uniform:
-        reach = tank.bodies[index].waterplane[1] * float(tank.geometry.is_revolved)
-        orders = 1.0 + solution.incidence.planes[0].wave.wavenumber * reach
-        tail = orders * _TAIL * count * last.max(axis=1)
+    if not tank.beams[index].is_uniform:
+        tail = _TAIL * count * last.max(axis=1)
     else:
         numbers = np.arange(count - 2, count) - 0.5
         tail = 2.0 * last @ ((0.5 * numbers) ** _ORDER * zeta(_ORDER, 1.0 + 0.5 * numbers))
-    if index in tank.beams:
-        omega = float(np.sqrt(solution.squared.real))
-        tail = tail + [_tail_of_attachments(motions, model, index, omega) for motions in solution.motions]
-    return np.asarray(tail)
+    omega = float(np.sqrt(solution.squared.real))
+    return np.asarray(tail + [_tail_of_attachments(motions, model, index, omega) for motions in solution.motions])
 
 
 def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:

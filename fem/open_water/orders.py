@@ -34,8 +34,9 @@ from hydroelastic.fem.open_water.requests import (
 )
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.fem.open_water.round_plates import along_diameter, joined
+from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.round_plates import RoundPlate
 
@@ -78,12 +79,17 @@ def solve_by_order(
 
 def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
     """Solve for the motions of each order (collective); see `solve_radiation`."""
+    found = [solve_radiation(problem.of_order(order), request) for order in _orders(problem, request.elastic_modes)]
+    return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
+
+
+def _orders(problem: OpenWaterProblem, elastic_modes: int) -> list[int]:
+    """Orders of the rigid motions and of the lowest elastic shapes."""
     orders = {*problem.tank.orders}
     for body in problem.tank.bodies:
         if isinstance(body, RoundPlate):
-            orders |= {*range(len(lowest_elastic(body, request.elastic_modes)))}
-    found = [solve_radiation(problem.of_order(order), request) for order in sorted(orders)]
-    return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
+            orders |= {*range(len(lowest_elastic(body, elastic_modes)))}
+    return sorted(orders)
 
 
 def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
@@ -130,14 +136,20 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
     while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
-        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
+        hulls = found[0].table.hulls if found else ()
+        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request, hulls))
     return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
 
 
 def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
-    """Whether an order scatters waves or bends a plate by more than the tolerance."""
+    """Whether an order scatters waves, bends a plate or presses on a hull by more than the tolerance."""
     assert table.partial_waves is not None
-    found = (table.partial_waves, *(plate.derivatives[0] for plate in table.round_plates))
+    weight = problem.tank.layers[0].density * problem.tank.gravity
+    found = (
+        table.partial_waves,
+        *(plate.derivatives[0] / OF_LOADS for plate in table.round_plates),
+        *(hull.pressure / weight for hull in table.hulls),
+    )
     return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
@@ -173,8 +185,24 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=error,
         missed_peaks=tuple(peaks),
-        plates=tuple(along_diameter(problem.tank, plate, error) for plate in plates),
+        plates=tuple(with_largest(problem.tank, along_diameter(problem.tank, plate, error), plate) for plate in plates),
         round_plates=plates,
+        hulls=tuple(_around(list(parts)) for parts in zip(*(table.hulls for table in tables), strict=True)),
+    )
+
+
+def _around(parts: list[HullPressure]) -> HullPressure:
+    """Return the pressures of the orders 0, 1 … on a solid, along its section from θ = π to θ = 0."""
+    orders = np.stack([part.pressure for part in parts], axis=2)
+    signs = (-1.0) ** np.arange(len(parts))[:, None]
+    points = parts[0].points
+    sides = (signs * orders)[..., ::-1].sum(axis=2), orders.sum(axis=2)
+    return HullPressure(
+        body=parts[0].body,
+        points=np.concatenate([points[::-1] * [-1.0, 1.0], points]),
+        pressure=np.concatenate(sides, axis=-1),
+        pressure_error=np.sum([part.pressure_error for part in parts], axis=0) + left_out(orders),
+        partial_pressures=orders,
     )
 
 
@@ -258,8 +286,10 @@ def _solve_impulse_response(
     problem: OpenWaterProblem, request: ImpulseResponseRequest, memory: Memory
 ) -> ImpulseResponseSolution:
     """Join the impulse responses of each order (collective); see `solve_impulse_response`."""
-    found = [solve_impulse_response(request, memory(order, request.elastic_modes)) for order in problem.tank.orders]
-    tables, dofs = [one.table for one in found], _dofs(problem)
+    orders = _orders(problem, request.elastic_modes)
+    found = [solve_impulse_response(request, memory(order, request.elastic_modes)) for order in orders]
+    tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
 
     def matrices(name: str) -> np.ndarray:
         return _matrices(dofs, [(table.dofs, getattr(table, name)) for table in tables])
@@ -283,9 +313,10 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
     `solve_motion`."""
     found = [
         solve_motion(problem.of_order(order), request, memory(order, request.elastic_modes))
-        for order in problem.tank.orders
+        for order in _orders(problem, request.elastic_modes)
     ]
-    tables, dofs = [one.table for one in found], _dofs(problem)
+    tables = [one.table for one in found]
+    dofs = _dofs(problem, *tables)
 
     def motions(name: str) -> np.ndarray:
         return _by_dof(dofs, [(table.dofs, getattr(table, name)) for table in tables])
@@ -302,7 +333,10 @@ def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Mem
     return replace(_largest(found), table=table, error=_error(found))
 
 
-def _dofs(problem: OpenWaterProblem, *tables: RadiationTable | ResponseTable | ResonanceTable) -> tuple[Dof, ...]:
+def _dofs(
+    problem: OpenWaterProblem,
+    *tables: RadiationTable | ResponseTable | ResonanceTable | ImpulseResponseTable | MotionTable,
+) -> tuple[Dof, ...]:
     """Degrees of freedom of all orders, body by body."""
     rigid = dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
     elastic = (dof for table in tables for dof in table.dofs if dof.is_elastic)

@@ -102,7 +102,7 @@ def build_open_pencil(
     free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), zero_potential)
     matrices = partial(_matrices, liquid, scaling, surfaces, free)
     laplace, mass = matrices(derivative=False)
-    loads = [_weighed_loads(liquid, body)[:, free] for body in bodies if body.size]
+    loads = [weighed_loads(liquid, body)[:, free] for body in bodies if body.size]
     return OpenPencil(
         liquid=liquid,
         bodies=bodies,
@@ -132,7 +132,8 @@ def _matrices(
     return _on(laplace, rows), _on(mass, rows)
 
 
-def _weighed_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
+def weighed_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
+    """Return F of a body, own entries of all unknowns, shape (body unknowns, own unknowns) (collective)."""
     densities = np.array([layer.density for layer in liquid.layers])
     loads: np.ndarray = shape_loads(liquid, body) * densities[liquid.owned_layer_of]
     return loads

@@ -18,11 +18,12 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.omitted_modes import omitted_deflection, truncation
+from hydroelastic.fem.open_water.plate_load_errors import plate_load_errors
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
-from hydroelastic.fem.open_water.round_plates import deflections_of_order
+from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -62,12 +63,15 @@ class _Sweep:
     table: ResponseTable
 
 
-def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
+def solve_response(
+    problem: OpenWaterProblem, request: ResponseRequest, like: tuple[HullPressure, ...] = ()
+) -> ResponseSolution:
     """Solve for the motion in waves to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
         request: frequencies and direction of the incident waves.
+        like: pressures along all hulls at whose points those of this azimuthal order are wanted.
     """
     omegas = np.array(request.omega)
     low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
@@ -107,7 +111,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(found.swept.solutions, found.swept.errors))
+        table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors, like))
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
@@ -120,15 +124,20 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _on_hulls(solutions: list[OpenResponse], reduced: np.ndarray) -> dict[str, Any]:
-    """Pressures along hulls, and in one liquid the drift force by the field beside the bodies, with the relative errors
-    by the reduced basis (collective)."""
+def _on_hulls(
+    request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray, like: tuple[HullPressure, ...]
+) -> dict[str, Any]:
+    """Pressures along hulls, and of sections in one liquid the drift force by the field beside the bodies,
+    with the relative errors by the reduced basis (collective)."""
     from hydroelastic.fem.open_water.hull import hull_pressure
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
-    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, reduced, index) for index in hulls)}
-    if len(tank.layers) == 1:
+    towards, points = direction_of(request.waves_from), {one.body: one.points for one in like}
+    found: dict[str, Any] = {
+        "hulls": tuple(hull_pressure(solutions, reduced, index, towards, points.get(index)) for index in hulls)
+    }
+    if len(tank.layers) == 1 and not tank.geometry.is_revolved:
         forces = [
             np.array([one.near_field_drift(place) for place in range(len(one.incident))])
             / one.incidence.elevations[one.incident] ** 2
@@ -178,7 +187,7 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     """
     model, incidence = solution.model, solution.incidence
     powers = incidence.powers[solution.incident]
-    away, tips = (0.5 * energy / powers for energy in solution.missed)
+    away, tips = (0.5 * energy / powers for energy in model.summed_over_cells(solution.missed))
     if incidence.directions == 1:
         away += model.cut
     else:
@@ -218,8 +227,9 @@ def _reported_motions(model: OpenModel) -> np.ndarray:
 
 def load_errors(model: OpenModel, solutions: list[OpenResponse]) -> dict[int, np.ndarray]:
     """Return errors of deflection, shear force and bending moment anywhere along each beam, per c of each incident wave
-    and in units of the basin, shape (n, 3, incident), by the number of the body (collective)."""
-    found = {}
+    and in units of the basin, shape (n, 3, incident), and `plate_load_errors`, by the number of the body
+    (collective)."""
+    found = {index: plate_load_errors(model, index, solutions) for index in model.plate_modes}
     for index, beam in model.basin.tank.beams.items():
         along = BeamLoads(model, index, np.linspace(0.0, beam.length, _SECTIONS))
         found[index] = np.array([along.errors(one, omitted_deflection(one, index)) for one in solutions])
@@ -261,7 +271,17 @@ def _table(
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, solutions, reduced, of_loads)),
-        round_plates=deflections_of_order(model, motions, request.positions) if is_round else (),
+        round_plates=tuple(
+            deflections_of_order(
+                model,
+                solutions,
+                _moved(request, model, solutions),
+                towards,
+                reduced,
+                of_loads,
+                lambda index: model.basin.units.length * radii_along(model.basin.tank, index, request.positions),
+            )
+        ),
         fields_at=request.fields_at,
     )
 
@@ -288,6 +308,18 @@ def drift_errors(solutions: list[OpenResponse], errors: np.ndarray) -> np.ndarra
     return units.density * units.gravity * np.array(found)
 
 
+def _moved(
+    request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse]
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Motions, and linear damping in place of each drag, of each response."""
+    outside, found = model.outside, []
+    for solution in solutions:
+        heights = request.elevation / model.basin.units.length / solution.incidence.elevations[solution.incident]
+        speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
+        found.append((solution.motions, REGULAR * outside.drag * speeds))
+    return found
+
+
 def _plates(
     request: ResponseRequest,
     model: OpenModel,
@@ -295,14 +327,11 @@ def _plates(
     reduced: np.ndarray,
     of_loads: dict[int, np.ndarray],
 ) -> Iterator[PlateDeflection]:
-    outside, units = model.outside, model.basin.units
     for index, beam in model.basin.tank.beams.items():
         x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
-        along, found = BeamLoads(model, index, x), []
-        for solution in solutions:
-            heights = request.elevation / units.length / solution.incidence.elevations[solution.incident]
-            speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
-            found.append(along.of(solution, solution.motions, REGULAR * outside.drag * speeds))
+        along = BeamLoads(model, index, x)
+        moved = zip(solutions, _moved(request, model, solutions), strict=True)
+        found = [along.of(one, *own) for one, own in moved]
         meshed = of_loads.get(index, np.zeros((len(solutions), 3, len(solutions[0].incident))))
         yield plate_deflection(model, index, x, solutions, found, reduced, meshed)
 

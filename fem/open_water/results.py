@@ -81,6 +81,7 @@ class PlateDeflection:
         deflection_error: (n, w) estimated error of the deflection anywhere, m/m.
         bending_moment_error: (n, w) the same of the bending moment, N/m.
         shear_force_error: (n, w) the same of the shear force, N/m².
+        strain: (n, w, p) of a plate of known thickness, along the diameter at its lower face, per metre of elevation.
         largest_strain: (n, w) at the faces of a plate of known thickness, over all its points, per metre of elevation.
         largest_stress: (n, w) likewise, Pa/m.
     """
@@ -93,6 +94,7 @@ class PlateDeflection:
     deflection_error: Floats
     bending_moment_error: Floats
     shear_force_error: Floats
+    strain: Complexes | None = None
     largest_strain: Floats | None = None
     largest_stress: Floats | None = None
 
@@ -104,12 +106,14 @@ class RoundDeflection:
     Attributes:
         body: its index among the bodies.
         radii: (p,) from the axis or the inner edge to the outer one, m.
-        derivatives: (4, n, w, orders, p) Wₙ and its derivatives per unit elevation of the incident wave, m^{-d}.
+        derivatives: (4, n, w, orders, p) Wₙ, Wₙ′, Wₙ″ and ∂(ΔₙWₙ)/∂r per unit elevation of the incident wave, m^{-d}.
+        uncertain: (2, n, w, orders) estimated errors of moment and shear force over the rigidity anywhere, 1/m², 1/m³.
     """
 
     body: int
     radii: Floats
     derivatives: Complexes
+    uncertain: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,15 +122,19 @@ class HullPressure:
 
     Attributes:
         body: its index among the bodies.
-        points: (p, 2) x and y from the left end of the waterplane around the hull, m.
+        points: (p, 2) x and y from the left end of the waterplane around the hull, m; of a solid of revolution those of
+            its section along the waves, and in one azimuthal order those of half of it.
         pressure: (n, w, p) complex amplitudes per metre of elevation, Pa/m.
         pressure_error: (n, w) estimated error anywhere on the hull, Pa/m.
+        partial_pressures: (n, w, orders, half of p) pₙ of Σ pₙ cos nθ about an axis, at the points of x ≥ 0 in their
+            order; ``None`` of sections.
     """
 
     body: int
     points: Floats
     pressure: Complexes
     pressure_error: Floats
+    partial_pressures: Complexes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,16 +22,21 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
+from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
+from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
 from hydroelastic.fem.open_water.spectrum_rows import (
+    air_gaps_of_plates,
+    along_plates,
+    estimated_about_peaks,
     motion_errors,
     order_of_motions,
-    plate_statistics,
+    points_of_plates,
     response_rows,
+    statistics_along,
 )
 from hydroelastic.fem.open_water.surface_elevation import (
     incident_elevations,
@@ -49,8 +54,11 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
-# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
+# Part of the tolerance that waves beyond the frequencies, or errors of transfer functions about an axis, may leave, and
+# the largest factor by which frequencies are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
+# Smallest tolerance of the orders for that of the loads of round plates.
+_LEAST = 1e-3
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
 _LAST = 0.7
 # How often all intervals between frequencies are halved for the sake of the moments.
@@ -75,30 +83,53 @@ class SpectrumSolution:
     error: float
 
 
-def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> SpectrumSolution:
+def solve_spectrum(
+    problem: OpenWaterProblem, request: SpectrumRequest, tolerance: float | None = None
+) -> SpectrumSolution:
     """Solve for the statistics of responses to irregular waves (collective).
 
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
-    same frequencies in the end.
+    same frequencies in the end. Loads of round plates are sums over the orders: where their errors are too large, all
+    orders are solved anew to a smaller tolerance.
 
     Args:
         problem: the open water.
         request: spectrum, duration, points.
+        tolerance: of the statistics; ``None`` for that of the problem.
     """
+    tolerance = tolerance or problem.tolerance
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    while _bends(attempts[-1].result, request, problem.tolerance):
+        # No other analysis asks for these orders: their solvers need not be kept.
+        order = attempts[-1].result.order + 1
+        attempts.append(_curves(replace(problem.of_order(order), solvers={}), request))
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas) for one in attempts]
     table = _table(problem, request, curves)
-    beyond = table.largest_error("truncation_error")
-    if request.highest is None and beyond > _BEYOND * problem.tolerance:
+    beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
+    highest, finer = request.highest, problem.tolerance
+    if highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
-        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
-        return solve_spectrum(problem, replace(request, highest=wider * request.band[1]))
+        highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
+    if problem.tank.geometry.is_revolved and table.plates and transfer > _BEYOND * tolerance:
+        # Errors of loads fall at least like the square root of those of waves.
+        finer = max(finer * (0.5 * tolerance / transfer) ** 2, _LEAST * tolerance)
+    if highest != request.highest or finer < problem.tolerance:
+        problem = replace(problem, tolerance=finer, solvers=problem.solvers if finer == problem.tolerance else {})
+        return solve_spectrum(problem, replace(request, highest=highest), tolerance)
     return SpectrumSolution(
         table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
         error=max(table.largest_error("relative_error"), *(one.error for one in attempts)),
     )
+
+
+def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
+    """Whether the waves of an order bend a round plate by more than a part of the tolerance."""
+    model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
+    bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
+    largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)
+    return largest > OF_LOADS * tolerance * float(weights.max())
 
 
 def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
@@ -132,7 +163,7 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
         for _ in range(_HALVINGS + 1):
             curves = certified_curves(solver, incident, omegas, frequencies, problem.tolerance)
             with problem.watch.stage("errors"):
-                places = _estimated(curves)
+                places = estimated_about_peaks(curves)
                 causes = [response_errors(curves.responses[place]) for place in places]
             total = np.array([cause.total.max() for cause in causes])
             joined = joined_errors(causes, float(curves.errors.max()))
@@ -155,18 +186,6 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
     return best_over_band(problem, band, solve)
 
 
-def _estimated(curves: Curves) -> list[int]:
-    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
-    sizes = np.abs(curves.motions)
-    found = set(estimated_places(curves.omegas))
-    for size in sizes.T:
-        top = int(size.argmax())
-        low = np.flatnonzero(size < 0.5 * size[top])
-        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
-        found.update(int(place) for place in sides)
-    return sorted(found)
-
-
 def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping, drag, motions = _with_drag(request, curves)
@@ -176,26 +195,33 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
     transfer = motions @ directions.T * factors
     deviations = motion_errors(models, errors, motions) @ np.abs(directions).T * np.abs(factors)
-    further = _further_orders(problem, request, omegas)
+    plates = list(along_plates(problem.tank, request, curves, motions, drag))
+    further, gaps = _further_orders(problem, request, omegas), slice(len(rows) - len(request.air_gaps), len(rows))
     if request.air_gaps:
-        water, uncertain = _elevations(problem, request, curves, motions, further)
-        transfer[:, -len(request.air_gaps) :] += water
-        deviations[:, -len(request.air_gaps) :] += uncertain
+        for water, uncertain in (
+            _elevations(problem, request, curves, motions, further),
+            air_gaps_of_plates(problem.tank, request, plates),
+        ):
+            transfer[:, gaps] += water
+            deviations[:, gaps] += uncertain
+    names = [(row.name, row.unit) for row in rows]
+    for quantity, unit, values, off in points_of_plates(problem.tank, request, omegas, plates):
+        names.append((quantity, unit))
+        transfer, deviations = np.column_stack([transfer, values]), np.column_stack([deviations, off])
     beyond = np.abs(transfer[[0, -1]])
     # Waves that come and are reflected may cancel at the last frequency.
-    last = np.abs(transfer[omegas >= _LAST * omegas[-1], len(rows) - len(request.air_gaps) :]).max(axis=0)
-    beyond[1, len(rows) - len(request.air_gaps) :] = last
+    beyond[1, gaps] = np.abs(transfer[omegas >= _LAST * omegas[-1], gaps]).max(axis=0)
     told = statistics(request.spectrum, omegas, transfer, deviations, request.duration, beyond)
     density = request.spectrum.density(omegas)
     order, dofs = order_of_motions(models)
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
-    unit = units.density * units.gravity * units.volume * units.length / units.frequency
+    damping_unit = units.density * units.gravity * units.volume * units.length / units.frequency
     drift, drift_error = mean_drift(problem, request, curves, motions, further)
     responses = tuple(
         IrregularResponse(
-            quantity=row.name,
-            unit=row.unit,
+            quantity=name,
+            unit=unit,
             significant_amplitude=float(told.significant_amplitude[place]),
             largest_amplitude=float(told.largest_amplitude[place]),
             zero_crossing_period=float(told.zero_crossing_period[place]),
@@ -204,7 +230,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
             truncation_error=float(told.truncation_error[place]),
             transfer_error=float(told.transfer_error[place]),
         )
-        for place, row in enumerate(rows)
+        for place, (name, unit) in enumerate(names)
     )
     level = problem.tank.levels_from_top[0].height
     return SpectrumTable(
@@ -214,7 +240,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         duration=request.duration,
         omega=omegas,
         density=density,
-        quantities=tuple(row.name for row in rows),
+        quantities=tuple(name for name, _ in names),
         transfer=transfer,
         response_density=np.abs(transfer) ** 2 * density[:, None],
         relative_error=errors,
@@ -223,12 +249,16 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         mean_drift_force=drift,
         mean_drift_error=drift_error,
         mean_absorbed_power=mean_power(request, curves, motions),
-        equivalent_damping=(back.T @ damping @ back * unit)[np.ix_(order, order)],
-        # Sections alone have beams, and one order.
-        plates=tuple(plate_statistics(request, curves[0], _estimated(curves[0]), motions, drag)),
+        equivalent_damping=(back.T @ damping @ back * damping_unit)[np.ix_(order, order)],
+        plates=tuple(
+            statistics_along(
+                request, omegas, plate, getattr(problem.tank.bodies[plate.body], "thickness", request.thickness)
+            )
+            for plate in plates
+        ),
         air_gaps=tuple(
             AirGap(point=gap, still_air_gap=gap.at[1] - level, relative_elevation=one)
-            for gap, one in zip(request.air_gaps, responses[len(rows) - len(request.air_gaps) :], strict=True)
+            for gap, one in zip(request.air_gaps, responses[gaps], strict=True)
         ),
     )
 
@@ -262,7 +292,7 @@ def _elevations(
     About an axis orders are added until one contributes less than a part of the tolerance to the spectra.
     """
     stops = np.cumsum([len(one.solver.model.mass) for one in curves])[:-1]
-    moved = dict(zip(problem.tank.orders, zip(curves, np.split(motions, stops, axis=1), strict=True), strict=True))
+    moved = {own.order: (own, part) for own, part in zip(curves, np.split(motions, stops, axis=1), strict=True)}
     total, uncertain = incident_elevations(curves[0], request)
     density = request.spectrum.density(curves[0].omegas)[:, None]
     weight = _LEFT_OUT**2 * problem.tolerance**2 * density.max()

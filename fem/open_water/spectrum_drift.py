@@ -52,15 +52,15 @@ def mean_drift(
         if len(curves[0].responses[0].incidence.planes) > 1:
             return nan, nan
         known = {
-            order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
-            for order, own, each in zip(problem.tank.orders, curves, parts, strict=True)
+            own.order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
+            for own, each in zip(curves, parts, strict=True)
         }
         forces, errors = _drift_of_orders(
             problem,
             request,
             omegas,
             known,
-            {order: own.errors for order, own in zip(problem.tank.orders, curves, strict=True)},
+            {own.order: own.errors for own in curves},
             further,
         )
     else:

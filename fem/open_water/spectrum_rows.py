@@ -12,13 +12,18 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.open_water.beam_loads import BeamLoads
 from hydroelastic.fem.open_water.curves import Curves
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
+from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.irregular_results import PlateStatistics
 from hydroelastic.fem.open_water.outside import displacement_at
+from hydroelastic.fem.open_water.radiation import estimated_places
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import load_errors, plate_deflection
+from hydroelastic.fem.open_water.results import Floats, PlateDeflection
+from hydroelastic.fem.open_water.round_plates import along_diameter, deflections_of_order, joined, radii_along
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.irregular_waves import statistics
+from hydroelastic.physics.round_plates import RoundPlate
+from hydroelastic.physics.tank import Tank
 
 CAUSES = ("sampling_error", "truncation_error", "transfer_error")
 """Of the error of statistics."""
@@ -44,25 +49,30 @@ def order_of_motions(models: list[OpenModel]) -> tuple[list[int], tuple[Dof, ...
 
 
 def response_rows(models: list[OpenModel], request: SpectrumRequest) -> list[Row]:
-    """Motions of rigid bodies, motions and accelerations of points, and last what air gaps move towards the water."""
-    elastic, length = models[0].basin.tank.elastic, models[0].basin.units.length
+    """Motions of rigid bodies and round plates, motions and accelerations of points of other bodies, and last what air
+    gaps move towards the water, but for those that move with round plates."""
+    tank, length = models[0].basin.tank, models[0].basin.units.length
     motions = block_diag(*(model.scale.turn * model.scale.lengths[:, None] / length for model in models))
     order, dofs = order_of_motions(models)
     rows = [
         Row(name=dof, unit="rad" if dof.is_rotation else "m", direction=motions[place].astype(complex))
         for place, dof in zip(order, dofs, strict=True)
-        if (dof.body or 1) - 1 not in elastic
+        if not dof.is_elastic and (dof.body or 1) - 1 not in tank.beams
     ]
     for number, (index, point) in enumerate(request.points, 1):
+        if index in models[0].plate_modes:
+            continue
         moved = np.hstack([_moved(model, index, point) for model in models])
         rows.append(Row(name=f"point {number} up", unit="m", direction=moved[0]))
-        if index not in elastic:
+        if index not in tank.elastic:
             rows.append(Row(name=f"point {number} sideways", unit="m", direction=moved[1]))
         rows.append(Row(name=f"point {number} acceleration up", unit="m/s²", direction=moved[0], is_acceleration=True))
     for number, gap in enumerate(request.air_gaps, 1):
-        up = 0.0 * motions[:1] if gap.body is None else np.hstack([_moved(one, gap.body, gap.at)[:1] for one in models])
+        up = np.zeros(motions.shape[1], dtype=complex)
+        if gap.body is not None and gap.body not in models[0].plate_modes:
+            up = np.hstack([_moved(model, gap.body, gap.at)[0] for model in models])
         # The elevation of the water is no motion of a body, and joins this part later.
-        rows.append(Row(name=f"relative elevation {number}", unit="m", direction=-up[0]))
+        rows.append(Row(name=f"relative elevation {number}", unit="m", direction=-up))
     return rows
 
 
@@ -83,44 +93,142 @@ def motion_errors(models: list[OpenModel], errors: np.ndarray, motions: np.ndarr
     return deviation
 
 
-def plate_statistics(
-    request: SpectrumRequest, curves: Curves, places: list[int], motions: np.ndarray, drag: np.ndarray
-) -> Iterator[PlateStatistics]:
-    """Deflection, bending moment and shear force along each beam, with errors of the mesh estimated at some places."""
-    model = curves.solver.model
-    known = load_errors(model, [curves.responses[place] for place in places])
-    for index, beam in model.basin.tank.beams.items():
-        x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
-        along = BeamLoads(model, index, x)
-        found = [
-            along.of(one, motion[None] / one.per_elevation(RIGHTWARD)[0], drag[None])
-            for one, motion in zip(curves.responses, motions, strict=True)
+def estimated_about_peaks(curves: Curves) -> list[int]:
+    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
+    sizes = np.abs(curves.motions)
+    found = set(estimated_places(curves.omegas))
+    for size in sizes.T:
+        top = int(size.argmax())
+        low = np.flatnonzero(size < 0.5 * size[top])
+        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
+        found.update(int(place) for place in sides)
+    return sorted(found)
+
+
+def along_plates(
+    tank: Tank, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray, drag: np.ndarray
+) -> Iterator[PlateDeflection]:
+    """Yield what acts along each beam, and along the diameter of each round plate, its points among the positions.
+
+    Args:
+        tank: the open water in SI units.
+        request: the request.
+        curves: the transfer functions of the orders that move.
+        motions: of all orders per elevation, shape (n, unknowns).
+        drag: linear damping in place of each drag.
+    """
+
+    def radii(index: int) -> Floats:
+        points = [
+            abs(at[0])
+            for body, at in (*request.points, *((gap.body, gap.at) for gap in request.air_gaps))
+            if body == index
         ]
-        logarithms = np.log(np.maximum(known[index], np.finfo(float).tiny))
-        # As those of the motions, about a resonance they change by orders of magnitude.
-        meshed = np.exp(interp1d(curves.omegas[places], logarithms, axis=0)(curves.omegas))
-        plate = plate_deflection(model, index, x, curves.responses, found, curves.reduced, meshed)
-        told, parts = {}, np.zeros((len(CAUSES), len(_LOADS)))
-        for place, name in enumerate(_LOADS):
-            transfer = getattr(plate, name)[:, 0]
-            deviation = np.broadcast_to(getattr(plate, f"{name}_error"), transfer.shape)
-            told[name] = statistics(request.spectrum, curves.omegas, transfer, deviation, request.duration)
-            sizes = told[name].significant_amplitude
-            for row, cause in enumerate(CAUSES):
-                # √(m₀ + δm₀) − √m₀: where hardly anything acts, as at the ends, the error is larger than the value.
-                grown = np.sqrt(1.0 + 2.0 * getattr(told[name], cause)) - 1.0
-                parts[row, place] = (grown * sizes).max() / max(sizes.max(), np.finfo(float).tiny)
-        largest = parts.max(axis=1).tolist()
-        yield PlateStatistics(
-            body=index,
-            positions=plate.positions,
-            significant_deflection=told["deflection"].significant_amplitude,
-            significant_bending_moment=told["bending_moment"].significant_amplitude,
-            largest_bending_moment=told["bending_moment"].largest_amplitude,
-            significant_shear_force=told["shear_force"].significant_amplitude,
-            largest_stress=np.multiply(6.0 / request.thickness**2, told["bending_moment"].largest_amplitude)
-            if request.thickness
-            else None,
-            relative_errors=dict(zip(_LOADS, parts.sum(axis=0).tolist(), strict=True)),
-            **dict(zip(CAUSES, largest, strict=True)),
-        )
+        return np.union1d(radii_along(tank, index, request.positions), points)
+
+    towards, parts = direction_of(request.waves_from), []
+    starts = np.cumsum([len(one.solver.model.mass) for one in curves])[:-1]
+    for one, part in zip(curves, np.split(motions, starts, axis=1), strict=True):
+        moved = [
+            (motion[None] / response.per_elevation(towards)[0], drag[None])
+            for response, motion in zip(one.responses, part, strict=True)
+        ]
+        model = one.solver.model
+        places = estimated_about_peaks(one)
+        known = load_errors(model, [one.responses[place] for place in places])
+        # As errors of the motions, about a resonance they change by orders of magnitude.
+        meshed = {
+            index: np.exp(
+                interp1d(one.omegas[places], np.log(np.maximum(values, np.finfo(float).tiny)), axis=0)(one.omegas)
+            )
+            for index, values in known.items()
+        }
+        for index, beam in model.basin.tank.beams.items():
+            x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
+            along = BeamLoads(model, index, x)
+            found = [along.of(response, *own) for response, own in zip(one.responses, moved, strict=True)]
+            yield plate_deflection(model, index, x, one.responses, found, one.reduced, meshed[index])
+        parts.append(deflections_of_order(model, one.responses, moved, towards, one.reduced, meshed, radii))
+    errors = np.max([one.errors for one in curves], axis=0)
+    for plates in zip(*parts, strict=True):
+        yield along_diameter(tank, joined(list(plates)), errors)
+
+
+def points_of_plates(
+    tank: Tank, request: SpectrumRequest, omegas: Floats, plates: list[PlateDeflection]
+) -> Iterator[tuple[str, str, np.ndarray, np.ndarray]]:
+    """Yield name, unit, transfer function and its error, shape (n,), of deflection, moment and strain at points of
+    round plates."""
+    along = {plate.body: plate for plate in plates}
+    for number, (index, point) in enumerate(request.points, 1):
+        body = tank.bodies[index]
+        if not isinstance(body, RoundPlate):
+            continue
+        plate, place = along[index], _place(along[index], point)
+        deflection, error = plate.deflection[:, 0, place], plate.deflection_error[:, 0]
+        yield f"point {number} up", "m", deflection, error
+        yield f"point {number} acceleration up", "m/s²", -(omegas**2) * deflection, omegas**2 * error
+        if body.bends and body.flexural_rigidity:
+            moment_error = plate.bending_moment_error[:, 0]
+            yield f"point {number} bending moment", "N", plate.bending_moment[:, 0, place], moment_error
+            if plate.strain is not None and body.thickness is not None:
+                strained = 0.5 * body.thickness / body.flexural_rigidity
+                yield f"point {number} strain", "1", plate.strain[:, 0, place], strained * moment_error
+
+
+def air_gaps_of_plates(
+    tank: Tank, request: SpectrumRequest, plates: list[PlateDeflection]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what points of air gaps that move with round plates move towards the water per unit incident elevation,
+    and its error, each of shape (n, points)."""
+    along = {plate.body: plate for plate in plates if isinstance(tank.bodies[plate.body], RoundPlate)}
+    still = np.zeros(len(plates[0].deflection)) if plates else 0.0
+    moved = [
+        (-plate.deflection[:, 0, _place(plate, gap.at)], plate.deflection_error[:, 0])
+        if (plate := along.get(-1 if gap.body is None else gap.body))
+        else (still, still)
+        for gap in request.air_gaps
+    ]
+    towards, errors = (np.stack(parts, axis=-1) for parts in zip(*moved, strict=True))
+    return towards, errors
+
+
+def _place(plate: PlateDeflection, point: tuple[float, float]) -> int:
+    return int(np.argmin(np.abs(plate.positions - point[0])))
+
+
+def statistics_along(
+    request: SpectrumRequest, omegas: Floats, plate: PlateDeflection, thickness: float | None
+) -> PlateStatistics:
+    """Return the statistics of deflection, bending moment and shear force along a beam or a diameter.
+
+    Args:
+        request: the request.
+        omegas: frequencies, rad/s.
+        plate: what acts along it at these.
+        thickness: of the plate, m; ``None`` for no stresses.
+    """
+    told, parts = {}, np.zeros((len(CAUSES), len(_LOADS)))
+    for place, name in enumerate(_LOADS):
+        transfer = getattr(plate, name)[:, 0]
+        deviation = np.broadcast_to(getattr(plate, f"{name}_error"), transfer.shape)
+        told[name] = statistics(request.spectrum, omegas, transfer, deviation, request.duration)
+        sizes = told[name].significant_amplitude
+        for row, cause in enumerate(CAUSES):
+            # √(m₀ + δm₀) − √m₀: where hardly anything acts, as at the ends, the error is larger than the value.
+            grown = np.sqrt(1.0 + 2.0 * getattr(told[name], cause)) - 1.0
+            parts[row, place] = (grown * sizes).max() / max(sizes.max(), np.finfo(float).tiny)
+    largest = parts.max(axis=1).tolist()
+    return PlateStatistics(
+        body=plate.body,
+        positions=plate.positions,
+        significant_deflection=told["deflection"].significant_amplitude,
+        significant_bending_moment=told["bending_moment"].significant_amplitude,
+        largest_bending_moment=told["bending_moment"].largest_amplitude,
+        significant_shear_force=told["shear_force"].significant_amplitude,
+        largest_stress=None
+        if thickness is None
+        else np.multiply(6.0 / thickness**2, told["bending_moment"].largest_amplitude),
+        relative_errors=dict(zip(_LOADS, parts.sum(axis=0).tolist(), strict=True)),
+        **dict(zip(CAUSES, largest, strict=True)),
+    )

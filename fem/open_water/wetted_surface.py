@@ -52,9 +52,10 @@ class WettedSurface:
         self.layers = np.concatenate([np.empty(0, dtype=np.int8), *layers])
         densities = np.array([layer.density for layer in liquid.layers])
         self._weights = np.concatenate([np.empty(0), *weights]) * densities[self.layers]
-        self.shapes = np.array(
-            [body.shapes(self.points.T, self.normals.T, number) for number in range(body.size)]
-        ).reshape(body.size, len(self.points))
+        columns, upright = self.points.T, self.normals.T
+        self.shapes = np.array([body.shapes(columns, upright, number) for number in range(body.size)]).reshape(
+            body.size, len(self.points)
+        )
 
     def loads(self, fluxes: np.ndarray) -> np.ndarray:
         """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)

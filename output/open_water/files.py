@@ -8,12 +8,11 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.open_water.hull_pressures import ALONG_HULL, HULLS
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     ALONG_BEAM,
-    ALONG_HULL,
     DECAY,
-    HULLS,
     PLATES,
     RADIATION,
     RESONANCE,

@@ -80,7 +80,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
     DOFS,
     joined_array("equivalent_damping", "linear damping in place of quadratic damping", OF_BODIES, unit="kg/(m s)",
         of_roll=("kg/s", "kg m/s")),
-    Group("plates", "largest loads along each beam", (
+    Group("plates", "largest loads along each beam, and along the diameter of each round plate", (
         Quantity("body", "number of the body", "1", value=lambda it: it.body + 1, short="body"),
         Quantity("largest_bending_moment", "most probable largest bending moment anywhere in the duration", "N",
             short="largest M", shown=".4g",

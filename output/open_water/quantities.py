@@ -17,6 +17,7 @@ from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, R
 from hydroelastic.output.open_water.bodies import BODIES
 from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
 from hydroelastic.output.open_water.estimates import ESTIMATES
+from hydroelastic.output.open_water.hull_pressures import HULLS, Pressure, pressure_along
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
@@ -46,19 +47,6 @@ class Deflection:
     shear_force_error: Floats
     largest_strain: Floats | None
     largest_stress: Floats | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Pressure:
-    """The pressure along a hull in waves: `number` of the body, from 1, and `HullPressure` with the waves."""
-
-    number: int
-    omega: Floats
-    waves: tuple[str, ...]
-    x: Floats
-    y: Floats
-    pressure: Complexes
-    pressure_error: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,17 +93,7 @@ class WavesAndMotions(ResponseTable):
     @property
     def pressures(self) -> Iterator[Pressure]:
         """The pressure along each hull."""
-        for hull in self.hulls:
-            x, y = hull.points.T
-            yield Pressure(
-                number=hull.body + 1,
-                omega=self.omega,
-                waves=self.waves,
-                x=x,
-                y=y,
-                pressure=hull.pressure,
-                pressure_error=hull.pressure_error,
-            )
+        return (pressure_along(self, hull) for hull in self.hulls)
 
 
 def region_words(region: Region | None) -> str:
@@ -250,19 +228,6 @@ PLATES = Group("plates", "the deflection of each beam, and of each round plate a
         "omega wave", "omega wave_direction wave", unit="Pa/m", short="largest stress",
         variable="largest_stress_of_body_{.number}", note="as `largest_strain`"),
 ), record=lambda table: list(table.deflections), dimension="plate")
-ALONG_HULL = "point_on_body_{.number}"
-HULLS = Group("hulls", "the pressure along the hull of each float", (
-    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
-    own_array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
-        variable="x_of_points_on_body_{.number}", column="x"),
-    own_array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
-        variable="y_of_points_on_body_{.number}", column="y"),
-    own_array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
-        f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
-        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
-    joined_array("pressure_error", "its estimated error anywhere", "omega wave", "omega wave_direction wave",
-        unit="Pa/m", variable="pressure_error_on_body_{.number}", printed=False, column=""),
-), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",

@@ -18,12 +18,6 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
-_OF_SECTIONS = {
-    "fields_at": "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
-    "motion is largest",
-    "hull_pressures": "it is computed for sections only, and the bodies are solids of revolution",
-}
-
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield keys of a closed tank that are reserved for open water."""
@@ -162,9 +156,14 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        for key, wrong in _OF_SECTIONS.items():
-            if value := getattr(analysis, key, None):
-                yield problem_at(("analysis", index, key), value, wrong, remedy="Leave it out")
+        if getattr(analysis, "fields_at", ()):
+            yield problem_at(
+                ("analysis", index, "fields_at"),
+                None,
+                "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
+                "motion is largest",
+                remedy="Leave it out",
+            )
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
             yield problem_at(
                 ("analysis", index, "largest_damping"),

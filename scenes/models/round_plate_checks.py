@@ -11,8 +11,6 @@ from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP, touching
 from hydroelastic.scenes.models.tank_parts import TankParts
 
-_OF_OTHERS = ("spectrum", "impulse_response", "motion")
-
 
 def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield plates at one level that overlap or touch."""
@@ -23,18 +21,6 @@ def round_plates_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
             f"the plate overlaps or touches [[body]] number {first + 1}, whose radius is {inner.end:g} m",
             remedy="Leave a gap between them",
         )
-
-
-def analyses_take_round_plates(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield analyses that are not solved for elastic plates of revolution."""
-    for index, analysis in enumerate(scene.analysis if scene.plates else ()):
-        if analysis.kind in _OF_OTHERS:
-            yield problem_at(
-                ("analysis", index, "kind"),
-                analysis.kind,
-                "it is computed for sections and rigid solids only, and a body is a round plate",
-                remedy="Leave it out",
-            )
 
 
 def round_plates_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:

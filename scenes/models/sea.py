@@ -26,7 +26,6 @@ from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plate_checks import (
-    analyses_take_round_plates,
     round_plates_are_in_range,
     round_plates_keep_apart,
 )
@@ -150,7 +149,7 @@ class SeaScene(TankParts):
             self,
             (
                 *STAGES,
-                (analyses_take_round_plates, round_plates_keep_apart, round_plates_are_in_range),
+                (round_plates_keep_apart, round_plates_are_in_range),
                 (attachments_hold_bodies, drag_is_heeded, export_is_possible),
             ),
         )

@@ -148,12 +148,14 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 yield problem_at((*where, "body"), one, "there is no body of that number", allowed=_numbers(scene))
                 continue
             body = scene.body[one - 1]
-            if not isinstance(body, AnyFloat) and not body.start <= at[0] <= body.end:
+            # What bends about an axis is a round plate.
+            place, x = (abs(at[0]), "|x|") if scene.is_revolved else (at[0], "x")
+            if not isinstance(body, AnyFloat) and not body.start <= place <= body.end:
                 yield problem_at(
                     (*where, "at"),
                     None,
                     f"x = {at[0]:g} m does not lie on the {name_of_body(body)}, [[body]] number {one}",
-                    allowed=f"x from {body.start:g} to {body.end:g} m",
+                    allowed=f"{x} from {body.start:g} to {body.end:g} m",
                 )
         low = analysis.spectrum.band[0]
         if analysis.highest_omega is not None and analysis.highest_omega <= 1.1 * low:

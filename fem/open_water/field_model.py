@@ -153,7 +153,7 @@ class OpenModel:
     def near_field(self) -> FarField:
         """The same half as far from the bodies (collective)."""
         left, right, bottom, top = extent_of_bodies(self.basin.tank)
-        low, high = 0.5 * (np.array(self.basin.bounds) + [[left, bottom], [right, top]])
+        low, high = 0.5 * np.add(self.basin.bounds, ((left, bottom), (right, top)))
         return FarField(self.pencil, (low[0], low[1]), (high[0], high[1]))
 
     @cached_property

@@ -17,7 +17,7 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.plan_arcs import curved_cells
 from hydroelastic.meshes.plan_bands import Band, bands_around
 from hydroelastic.meshes.plan_faces import faces_between, filled
-from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, kept_by, room_between
+from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, kept_by, rooms_around
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 # Ratio of successive nodes' distances from a re-entrant corner of a wall.
@@ -51,15 +51,18 @@ def plan_mesh(
     covered = any(plate.outside is wall.outside for plate in plates)
     edges = () if covered else tuple(loop for plate in plates for loop in (plate.outside, *plate.inside))
     walls = (wall.outside, *wall.inside)
-    thick = min(thickness, room_between(walls, edges))
+    rooms = rooms_around(walls, edges)
+    thick = min([thickness, *rooms])
     steps = thick * RATIO ** np.arange(layers)
     bands: list[Band] = []
 
     def add(loop: Loop, inside: str, outside: str, *, is_wall: bool) -> None:
         largest = min(size(name) for name in (inside, outside) if name)
         if isinstance(loop, CircleLoop) and not covered:
-            # Between the bands of a narrow gap half of a layer is left; the sagitta of an arc is half of that at most.
-            largest = min(largest, sqrt(2.0 * loop.radius * thick))
+            # In what a gap leaves between bands cells are long: an arc leaves its chord at half the angle at which
+            # such a cell's next side does.
+            room = min(rooms) if is_wall else rooms[edges.index(loop)]
+            largest = min(largest, sqrt(loop.radius * (2.5 * room - 2.0 * thick)))
         towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
         bands.extend(
             bands_around(

@@ -9,6 +9,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.meshes.crossings import crossing_pair
+
 RATIO = 0.2
 """Ratio of the thicknesses of successive layers beside an edge."""
 
@@ -191,8 +193,16 @@ class PlanRegion:
         return (self.outside, *self.inside)
 
     def gap(self, other: PlanRegion) -> float:
-        """Return the distance of its loops from those of another region, as far as a few hundred points show it."""
+        """Return the distance of its loops from those of another region, as far as a few hundred points show it.
+
+        It is 0 where they cross.
+        """
         return min(_gap(one, another) for one in self.loops for another in other.loops)
+
+    def contains(self, other: PlanRegion) -> bool:
+        """Whether the outer loop of another region, which crosses none of its own, lies in it."""
+        point = other.outside.parallel(0.0, np.zeros(1))[0]
+        return self.outside.contains(point) and not any(hole.contains(point) for hole in self.inside)
 
 
 def kept_by(mirrors: Mirrors, points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
@@ -209,20 +219,26 @@ def _fitting(grading: Grading, length: float) -> Grading:
     return grading * min(1.0 / length, 0.3 / grading[-1]) if len(grading) else grading
 
 
-def room_between(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
-    """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
-    room = np.inf
+def rooms_around(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> list[float]:
+    """For each edge two fifths of its distance from the next loop, or a third of the smallest length along it."""
+    rooms = [loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop) for loop in edges]
     for number, loop in enumerate(edges):
-        others = (*walls, *edges[:number])
-        room = min([room, *(0.4 * _gap(loop, other) for other in others)])
-        room = min(room, loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop))
-    return room
+        for other, another in enumerate((*edges[:number], *walls)):
+            room = 0.4 * _gap(loop, another)
+            rooms[number] = min(rooms[number], room)
+            if other < number:
+                rooms[other] = min(rooms[other], room)
+    return rooms
 
 
 def _gap(one: Loop, other: Loop) -> float:
     """Distance of two loops: of the points of one from the straight pieces between those of the other."""
     first, second = (loop.parallel(0.0, loop.places(_extent(loop) / 60.0, UNGRADED, UNGRADED)) for loop in (one, other))
-    return min(_distance(first, second), _distance(second, first))
+    gap = min(_distance(first, second), _distance(second, first))
+    if gap < max(_extent(one), _extent(other)) / 60.0:
+        starts, ends = (np.vstack([np.roll(loop, turn, axis=0) for loop in (first, second)]) for turn in (0, -1))
+        gap = 0.0 if crossing_pair(starts, ends) is not None else gap
+    return gap
 
 
 def _distance(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:

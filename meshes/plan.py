@@ -24,6 +24,12 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 _CORNER_RATIO = 0.4
 
 
+def edges_of(wall: PlanRegion, plates: tuple[PlanRegion, ...]) -> tuple[Loop, ...]:
+    """Return the edges of plates beside water: all, or none of a plate that covers the plan."""
+    covered = any(plate.outside is wall.outside for plate in plates)
+    return () if covered else tuple(loop for plate in plates for loop in plate.loops)
+
+
 def plan_mesh(
     wall: PlanRegion,
     plates: tuple[PlanRegion, ...],
@@ -49,8 +55,7 @@ def plan_mesh(
         MeshError: if gmsh fails, or a curved cell is inverted.
     """
     covered = any(plate.outside is wall.outside for plate in plates)
-    edges = () if covered else tuple(loop for plate in plates for loop in (plate.outside, *plate.inside))
-    walls = (wall.outside, *wall.inside)
+    edges, walls = edges_of(wall, plates), wall.loops
     rooms = rooms_around(walls, edges)
     thick = min([thickness, *rooms])
     steps = thick * RATIO ** np.arange(layers)

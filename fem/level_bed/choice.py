@@ -62,7 +62,7 @@ def _require_plan(tank: LevelTank) -> None:
         if region.outside is wall.outside:
             continue
         if region.gap(wall) < _TOUCHING:
-            raise NotTreatedError(f"plate {index + 1} touches or crosses a wall, and covers only a part of the plan")
+            raise NotTreatedError(f"plate {index + 1} touches a wall or crosses it, and covers only a part of the plan")
         if not wall.contains(region) or any(region.contains(replace(wall, outside=hole)) for hole in wall.inside):
             raise NotTreatedError(f"plate {index + 1} does not lie inside the plan")
         for other, earlier in enumerate(regions[:index]):

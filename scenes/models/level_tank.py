@@ -200,6 +200,18 @@ def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _edges_can_be_held(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    for index, plate in enumerate(scene.plates):
+        straight = plate.outline == "polygon" or (plate.outline == "rectangle" and scene.tank.width is None)
+        if plate.edge != "free" and straight:
+            yield problem_at(
+                ("body", index, "edge"),
+                plate.edge,
+                "walls hold edges of rectangles and strips in a box, and of discs and rings about the axis of a cylinder",
+                allowed='"free"',
+            )
+
+
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     unit, depth = physical_plan(scene).unit, scene.depth
     least, most = DEPTH_TO_LENGTH
@@ -344,7 +356,7 @@ _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
     (_plan_is_complete, _polygons_are_simple, _something_moves, volumes_are_of_plates),
     (_files_can_be_read,),
-    (_outlines_fit_the_plan, _depth_fits_the_plan, _bed_is_below_the_surface),
+    (_outlines_fit_the_plan, _edges_can_be_held, _depth_fits_the_plan, _bed_is_below_the_surface),
     (liquids_are_layered, columns_lie_in_the_tank, shaped_beds_are_simple),
     (_plates_lie_in_the_tank, floats_lie_in_the_tank),
     (_plates_keep_apart, _groups_are_in_range),

@@ -21,8 +21,8 @@ UNGRADED: Grading = np.zeros(0)
 Mirrors: TypeAlias = tuple[float | None, float | None]
 """x and y of planes of symmetry, ``None`` without one; the part of the plan with larger coordinates is kept."""
 
-# Corners that turn by less than this, radians, need no smaller cells: the part of r^{π/α} in ψ is in proportion to it. The
-# plan of 48 corners on a circle has errors of 1e-7 without.
+# Corners that turn by less than this, radians, need no smaller cells: the part of r^{π/α} in ψ is in proportion to it.
+# The plan of 48 corners on a circle has errors of 1e-6 without, at a tolerance of 1e-5.
 _GENTLE = 0.14
 # Corners of a wall that turn by less than this are obtuse: ψ ~ r^{π/α} with an angle α of 100 degrees or more, which
 # few nodes resolve.

@@ -207,7 +207,7 @@ def _edges_can_be_held(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("body", index, "edge"),
                 plate.edge,
-                "walls hold edges of rectangles and strips in a box, and of discs and rings about the axis of a cylinder",
+                "walls hold edges of rectangles and strips in a box, of discs and rings about the axis of a cylinder",
                 allowed='"free"',
             )
 

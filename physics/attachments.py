@@ -90,7 +90,7 @@ def is_passive(damping: Matrix) -> bool:
     """
     values = np.array(damping)
     roots = np.sqrt(np.abs(np.diag(values)))
-    if np.any(np.diag(values) < 0.0) or np.any(np.abs(values[roots == 0.0]) > 0.0):
+    if np.any(np.diag(values) < 0.0) or np.any(np.abs(values[roots == 0.0]) > _ROUNDING * np.abs(values).max()):
         return False
     scale = np.where(roots > 0.0, roots, 1.0)
     return bool(np.linalg.eigvalsh(values / np.outer(scale, scale)).min() >= -_ROUNDING)

@@ -42,6 +42,9 @@ from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTab
 
 # Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
 _POWER = 10.0
+# A motion whose error is above the tolerance is solved again, with forces and memory for a smaller one. Not for less
+# than a hundredth of it, which takes several times as long.
+_HALF, _HUNDREDTH = 0.5, 0.01
 
 _Solution: TypeAlias = (
     RadiationSolution
@@ -117,14 +120,16 @@ def solve_open_water(
     found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
     problem = replace(problem, bands=tuple(band for band in found if band is not None))
     latest = max((max(one.times) for one in requests if isinstance(one, OVER_TIME)), default=0.0)
-
-    @cache
-    def memory(order: int, elastic_modes: int) -> WaterMemory:
-        return solve_memory(problem.of_order(order), latest, elastic_modes)
-
+    moving, memory = problem, _memory(problem, latest)
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
-        solution = _solved(problem, request, memory)
+        solution = _solved(moving if isinstance(request, MotionRequest) else problem, request, memory)
+        if isinstance(request, MotionRequest) and solution.error > problem.tolerance:
+            # Near a resonance errors of forces and of the memory are magnified in the motion.
+            factor = max(_HALF * problem.tolerance / solution.error, _HUNDREDTH)
+            moving = replace(problem, tolerance=factor * problem.tolerance, solvers={})
+            memory = _memory(moving, latest)
+            solution = min(solution, _solved(moving, request, memory), key=lambda one: one.error)
         # The tables alone: a model holds its mesh and matrices.
         tables.append(solution.table)
         if solution.model is not None and solution.model.pencil.size > size["dofs"]:
@@ -135,6 +140,7 @@ def solve_open_water(
         release_memory()
     # All processes free the last solver together.
     problem.solvers.clear()
+    moving.solvers.clear()
     release_memory()
     return OpenWaterSolution(
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
@@ -148,6 +154,16 @@ def solve_open_water(
         seconds=dict(problem.watch.seconds),
         reasons=tuple(reasons),
     )
+
+
+def _memory(problem: OpenWaterProblem, latest: float) -> Memory:
+    """Return the memory of the water of each order up to a time, s, found when it is first asked for."""
+
+    @cache
+    def memory(order: int, elastic_modes: int) -> WaterMemory:
+        return solve_memory(problem.of_order(order), latest, elastic_modes)
+
+    return memory
 
 
 def _solved(problem: OpenWaterProblem, request: Request, memory: Memory) -> _Solution:

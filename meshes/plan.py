@@ -17,7 +17,17 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.plan_arcs import curved_cells
 from hydroelastic.meshes.plan_bands import Band, bands_around
 from hydroelastic.meshes.plan_faces import faces_between, filled
-from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, kept_by, rooms_around
+from hydroelastic.meshes.plan_loops import (
+    RATIO,
+    UNGRADED,
+    CircleLoop,
+    Loop,
+    Mirrors,
+    PlanRegion,
+    gaps_around,
+    kept_by,
+    room_between,
+)
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 # Ratio of successive nodes' distances from a re-entrant corner of a wall.
@@ -56,8 +66,9 @@ def plan_mesh(
     """
     covered = any(plate.outside is wall.outside for plate in plates)
     edges, walls = edges_of(wall, plates), wall.loops
-    rooms = rooms_around(walls, edges)
-    thick = min([thickness, *rooms])
+    thick = min(thickness, room_between(walls, edges))
+    # What bands leave of the gap beside each edge: a wall has none.
+    left = (gaps_around(walls, edges) - thick * np.array([1.0, 2.0])).min(axis=1, initial=np.inf)
     steps = thick * RATIO ** np.arange(layers)
     bands: list[Band] = []
 
@@ -66,8 +77,8 @@ def plan_mesh(
         if isinstance(loop, CircleLoop) and not covered:
             # In what a gap leaves between bands cells are long: an arc leaves its chord at half the angle at which
             # such a cell's next side does.
-            room = min(rooms) if is_wall else rooms[edges.index(loop)]
-            largest = min(largest, sqrt(loop.radius * (2.5 * room - 2.0 * thick)))
+            width = left.min(initial=np.inf) if is_wall else left[edges.index(loop)]
+            largest = min(largest, sqrt(loop.radius * width))
         towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
         bands.extend(
             bands_around(

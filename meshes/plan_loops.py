@@ -221,16 +221,20 @@ def _fitting(grading: Grading, length: float) -> Grading:
     return grading * min(1.0 / length, 0.3 / grading[-1]) if len(grading) else grading
 
 
-def rooms_around(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> list[float]:
-    """For each edge two fifths of its distance from the next loop, or a third of the smallest length along it."""
-    rooms = [loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop) for loop in edges]
+def gaps_around(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> NDArray[np.float64]:
+    """Return the distances of each edge from the next wall and from the next edge, shape (edges, 2)."""
+    gaps = np.full((len(edges), 2), np.inf)
     for number, loop in enumerate(edges):
-        for other, another in enumerate((*edges[:number], *walls)):
-            room = 0.4 * _gap(loop, another)
-            rooms[number] = min(rooms[number], room)
-            if other < number:
-                rooms[other] = min(rooms[other], room)
-    return rooms
+        gaps[number, 0] = min(_gap(loop, wall) for wall in walls)
+        for other in range(number):
+            gaps[[number, other], 1] = np.minimum(gaps[[number, other], 1], _gap(loop, edges[other]))
+    return gaps
+
+
+def room_between(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
+    """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
+    inner = [loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop) for loop in edges]
+    return min(0.4 * float(gaps_around(walls, edges).min(initial=np.inf)), *inner, np.inf)
 
 
 def _gap(one: Loop, other: Loop) -> float:

@@ -36,7 +36,7 @@ from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
 from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
-from hydroelastic.meshes.plan_loops import Mirrors, rooms_around
+from hydroelastic.meshes.plan_loops import Mirrors, room_between
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
@@ -347,7 +347,7 @@ def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
     wall, plates = plan_regions(tank)
     mirrors = mirrors_of(wall, plates)
     thickness = min(0.5 * resolution.size, tank.depth)
-    rooms = rooms_around(wall.loops, edges_of(wall, plates))
+    thin = min(thickness, room_between(wall.loops, edges_of(wall, plates)))
     mesh = plan_mesh(
         wall,
         plates,
@@ -364,5 +364,5 @@ def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
         mirrors=mirrors,
         space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, images),
         poles=vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
-        missing_layers=log(min([thickness, *rooms]) / thickness) / log(LAYER_RATIO),
+        missing_layers=log(thin / thickness) / log(LAYER_RATIO),
     )

@@ -17,11 +17,27 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.plan_arcs import curved_cells
 from hydroelastic.meshes.plan_bands import Band, bands_around
 from hydroelastic.meshes.plan_faces import faces_between, filled
-from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, kept_by, room_between
+from hydroelastic.meshes.plan_loops import (
+    RATIO,
+    UNGRADED,
+    CircleLoop,
+    Loop,
+    Mirrors,
+    PlanRegion,
+    gaps_around,
+    kept_by,
+    room_between,
+)
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 # Ratio of successive nodes' distances from a re-entrant corner of a wall.
 _CORNER_RATIO = 0.4
+
+
+def edges_of(wall: PlanRegion, plates: tuple[PlanRegion, ...]) -> tuple[Loop, ...]:
+    """Return the edges of plates beside water: all, or none of a plate that covers the plan."""
+    covered = any(plate.outside is wall.outside for plate in plates)
+    return () if covered else tuple(loop for plate in plates for loop in plate.loops)
 
 
 def plan_mesh(
@@ -49,17 +65,20 @@ def plan_mesh(
         MeshError: if gmsh fails, or a curved cell is inverted.
     """
     covered = any(plate.outside is wall.outside for plate in plates)
-    edges = () if covered else tuple(loop for plate in plates for loop in (plate.outside, *plate.inside))
-    walls = (wall.outside, *wall.inside)
+    edges, walls = edges_of(wall, plates), wall.loops
     thick = min(thickness, room_between(walls, edges))
+    # What bands leave of the gap beside each edge: a wall has none.
+    left = (gaps_around(walls, edges) - thick * np.array([1.0, 2.0])).min(axis=1, initial=np.inf)
     steps = thick * RATIO ** np.arange(layers)
     bands: list[Band] = []
 
     def add(loop: Loop, inside: str, outside: str, *, is_wall: bool) -> None:
         largest = min(size(name) for name in (inside, outside) if name)
         if isinstance(loop, CircleLoop) and not covered:
-            # Between the bands of a narrow gap half of a layer is left; the sagitta of an arc is half of that at most.
-            largest = min(largest, sqrt(2.0 * loop.radius * thick))
+            # In what a gap leaves between bands cells are long: an arc leaves its chord at half the angle at which
+            # such a cell's next side does.
+            width = left.min(initial=np.inf) if is_wall else left[edges.index(loop)]
+            largest = min(largest, sqrt(loop.radius * width))
         towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
         bands.extend(
             bands_around(

@@ -8,7 +8,7 @@ from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, PolygonLoop
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
-from hydroelastic.physics.plate import Disc, Polygon, Rectangle
+from hydroelastic.physics.plate import Disc, Outline
 
 
 def plan_regions(tank: LevelTank) -> tuple[PlanRegion, tuple[PlanRegion, ...]]:
@@ -36,15 +36,15 @@ def _region(tank: LevelTank, index: int, wall: PlanRegion) -> PlanRegion:
     outline, name = tank.plates[index].outline, body_name(index + 1)
     if outline.area > tank.plan.area * (1.0 - 1e-9):
         return PlanRegion(name=name, outside=wall.outside, inside=wall.inside)
+    return outline_region(outline, name)
+
+
+def outline_region(outline: Outline, name: str) -> PlanRegion:
+    """Return what an outline covers."""
     if isinstance(outline, Disc):
         centre = np.array(outline.position)
         hole = (CircleLoop(centre=centre, radius=outline.inner_radius),) if outline.inner_radius else ()
         return PlanRegion(name=name, outside=CircleLoop(centre=centre, radius=outline.radius), inside=hole)
-    if isinstance(outline, Rectangle):
-        (x, y), (length, width) = outline.position, outline.size
-        half = 0.5 * np.array([[-length, -width], [length, -width], [length, width], [-length, width]])
-        return PlanRegion(name=name, outside=PolygonLoop(corners=np.array([x, y]) + half))
-    assert isinstance(outline, Polygon)
     return PlanRegion(name=name, outside=PolygonLoop(corners=np.asarray(outline.corners, dtype=np.float64)))
 
 

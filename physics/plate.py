@@ -82,6 +82,11 @@ class Strip:
         """The larger of its lengths along x and y, m."""
         return max(self.length, self.width)
 
+    @property
+    def corners(self) -> tuple[Point, ...]:
+        """Its corners, around it."""
+        return (self.start, 0.0), (self.end, 0.0), (self.end, self.width), (self.start, self.width)
+
     def scaled(self, length: float) -> Strip:
         """Return it in units of a length."""
         return replace(self, start=self.start / length, length=self.length / length, width=self.width / length)

@@ -107,3 +107,11 @@ def test_parts_of_a_symmetric_polygon_have_the_modes_of_the_whole() -> None:
         sign = -1.0 if part.basis.parity[0] == 1 else 1.0
         mirrored = points * np.array([[-1.0], [1.0]])
         assert part.deflection(mirrored) == pytest.approx(sign * part.deflection(points), abs=1e-7)
+
+
+def test_a_polygon_whose_corner_lies_on_an_ear_but_for_rounding_is_cut_elsewhere() -> None:
+    ell = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
+    # In these units the re-entrant corner lies a rounding error beyond the line between its second neighbours.
+    placed = (2.0 + 2.0 * ell) / 10.0
+    found = polygon_modes(tuple(map(tuple, placed.tolist())), 0.3, 8).stiffness[3:6] * 0.2**4
+    np.testing.assert_allclose(found, polygon_modes(tuple(map(tuple, ell.tolist())), 0.3, 8).stiffness[3:6], rtol=1e-9)

@@ -130,6 +130,21 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     "key of another outline": ({"body": [DISC | {"size": [1.0, 1.0]}]}, "does not belong to outline"),
     "nothing moves": ({"body": [], "tank": {"radius": 5.0, "top": "rigid"}}, "nothing moves"),
     "two liquids": ({"liquid": LIQUID * 2}, "liquid"),
+    "a polygon held at a wall": (
+        {
+            "tank": {"length": 10.0, "width": 8.0, "model": "volume"},
+            "body": [
+                {
+                    "outline": "polygon",
+                    "points": [[0.0, 2.0], [4.0, 2.0], [0.0, 6.0]],
+                    "rigid": True,
+                    "mass_per_area": 1.0,
+                    "edge": "clamped",
+                }
+            ],
+        },
+        "walls hold edges of rectangles and strips in a box",
+    ),
     "too thin": ({"liquid": [{"density": 1.0, "depth": 1e-5}]}, "too thin"),
 }
 
@@ -138,6 +153,57 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
 def test_what_does_not_fit_is_refused(case: str) -> None:
     changes, said = BAD[case]
     with pytest.raises(SceneError, match=said):
+        scene(**changes)
+
+
+RING = {**DISC, "outline": "ring", "radius": 4.0, "inner_radius": 2.5}
+TRIANGLE = {**{key: value for key, value in DISC.items() if key != "radius"}, "outline": "polygon"}
+FITTING: dict[str, dict[str, Any]] = {
+    "a ring askew about an inner cylinder": {
+        "tank": {"radius": 5.0, "inner_radius": 1.0},
+        "body": [{**RING, "position": [0.3, 0.0]}],
+    },
+    "a disc beside an inner cylinder": {
+        "tank": {"radius": 5.0, "inner_radius": 1.0},
+        "body": [{**DISC, "radius": 1.0, "position": [3.0, 0.0]}],
+    },
+    "a disc askew in a ring": {"body": [RING, {**DISC, "position": [0.3, 0.0]}]},
+    "two triangles with boxes around them that overlap": {
+        "body": [
+            {**TRIANGLE, "points": [[-3.0, -3.0], [2.0, -3.0], [-3.0, 2.0]]},
+            {**TRIANGLE, "points": [[2.2, -2.8], [2.2, 2.2], [-2.8, 2.2]]},
+        ]
+    },
+}
+
+
+@pytest.mark.parametrize("case", FITTING)
+def test_what_keeps_apart_is_taken(case: str) -> None:
+    checker_of(scene(**FITTING[case]))
+
+
+CROSSING = [[2.0, 2.0], [6.0, 6.0], [6.0, 2.0], [2.0, 6.0]]
+
+
+@pytest.mark.parametrize(
+    ("said", "changes"),
+    [
+        ("folds back on itself near \\(6, 6\\)", {"tank": {"plan": CROSSING}, "body": []}),
+        ("folds back on itself near \\(6, 6\\)", {"body": [{**TRIANGLE, "points": CROSSING}]}),
+        ("first vertex is not repeated", {"tank": {"plan": [*CROSSING[::2], CROSSING[0]]}, "body": []}),
+        (
+            "overlaps or touches",
+            {
+                "body": [
+                    {**TRIANGLE, "points": [[-3.0, -0.5], [3.0, -0.5], [0.0, 0.5]]},
+                    {**TRIANGLE, "points": [[-0.5, -3.0], [0.5, 0.0], [-0.5, 3.0]]},
+                ]
+            },
+        ),
+    ],
+)
+def test_polygons_that_cross_are_refused(said: str, changes: dict[str, Any]) -> None:
+    with pytest.raises((SceneError, ValueError), match=said):
         scene(**changes)
 
 

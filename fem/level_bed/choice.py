@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal, TypeAlias
-
-import numpy as np
 
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.meshes.plan_regions import plan_regions
@@ -63,9 +62,8 @@ def _require_plan(tank: LevelTank) -> None:
         if region.outside is wall.outside:
             continue
         if region.gap(wall) < _TOUCHING:
-            raise NotTreatedError(f"plate {index + 1} touches a wall, and covers only a part of the plan")
-        corner = region.outside.parallel(0.0, np.zeros(1))[0]
-        if not wall.outside.contains(corner) or any(hole.contains(corner) for hole in wall.inside):
+            raise NotTreatedError(f"plate {index + 1} touches a wall or crosses it, and covers only a part of the plan")
+        if not wall.contains(region) or any(region.contains(replace(wall, outside=hole)) for hole in wall.inside):
             raise NotTreatedError(f"plate {index + 1} does not lie inside the plan")
         for other, earlier in enumerate(regions[:index]):
             if region.gap(earlier) < _TOUCHING:

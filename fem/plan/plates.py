@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil, pi
 
@@ -16,7 +16,6 @@ from hydroelastic.fem.plan.rectangle_body import (
     RectangleBody,
     dofs_by_stiffness,
     rectangle_body,
-    rectangle_of,
 )
 from hydroelastic.fem.plan.truncation import finer_count, geometric_tail, missing_after, rectangle_energies
 from hydroelastic.fem.surfaces import Body
@@ -44,7 +43,11 @@ def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParit
     plate = tank.plates[index]
     outline = plate.outline
     if isinstance(outline, Rectangle | Strip):
-        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(rectangle_of(outline))
+        if not isinstance(tank.plan, Box):
+            # The walls of other plans hold no rectangle.
+            plate, box = replace(plate, edge="free"), Box(length=1.0, width=1.0)
+        else:
+            box = tank.plan
         return _rectangle(partial(rectangle_body, box, index, plate, parity=parity), polynomials)
     if isinstance(outline, Disc):
         return _disc(tank, index, outline, polynomials, parity)
@@ -72,12 +75,6 @@ def _rectangle(body_of: Callable[[int], RectangleBody], polynomials: int) -> Pla
         wavenumber=1.5 * polynomials / min(found.outline.size),
         missing_energy=missing,
     )
-
-
-def _far_from_walls(outline: Rectangle) -> Box:
-    """A box whose walls the rectangle does not touch."""
-    (x, y), (length, width) = outline.position, outline.size
-    return Box(length=abs(x) + 2.0 * length, width=abs(y) + 2.0 * width)
 
 
 def _body(

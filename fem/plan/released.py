@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.arrays import FloatArray
@@ -26,6 +26,8 @@ from hydroelastic.physics.dofs import FIRST_ELASTIC
 _MOST_STEPS = 40
 # Part of 1/λ by which the residual of a tone changes it at most, if the next mode is as far as another 1/λ.
 _RESIDUAL = 1e-9
+# Of the energy of unit vectors, the part that others of the basis may leave of it.
+_INDEPENDENT = 1e-12
 # The softest shapes of each plate, with which the method starts.
 _START = 6
 
@@ -155,7 +157,13 @@ def released_modes(
         )
     basis = motions(start, start @ problem.loads)
     for _ in range(_MOST_STEPS):
-        values, vectors = eigh((basis.momentum * compliance) @ basis.momentum.T, _energies(basis, mass))
+        # The same mode may be chosen for two plates that are alike, and its residual gives one vector only.
+        lengths, turn = np.linalg.eigh(_energies(basis, mass))
+        independent = lengths > _INDEPENDENT * lengths[-1]
+        turn = turn[:, independent] / np.sqrt(lengths[independent])
+        momentum = turn.T @ basis.momentum
+        values, vectors = np.linalg.eigh((momentum * compliance) @ momentum.T)
+        vectors = turn @ vectors
         energies = compliance * (vectors.T @ basis.momentum) ** 2
         chosen = choose(values, energies / energies.sum(axis=1)[:, None])
         inverses, modes = values[chosen], basis.combined(vectors[:, chosen].T)

@@ -27,6 +27,8 @@ from hydroelastic.physics.plate import Point, Polygon
 _CORNER_POWER = 4
 # Of a function's norm, the part that others of the basis may leave of it.
 _INDEPENDENT = 1e-10
+# Areas below this part of a triangle's longest side squared are rounding.
+_NEGLIGIBLE = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -251,11 +253,11 @@ def _quality(first: NDArray[np.float64], second: NDArray[np.float64], third: NDA
 
 
 def _is_ear(corners: list[NDArray[np.float64]], number: int) -> bool:
-    first, second, third = corners[number - 1], corners[number], corners[(number + 1) % len(corners)]
-    if _turn(first, second, third) <= 0.0:
+    """Whether the triangle at a corner has no other corner in it or, but for rounding, on its sides."""
+    ear = first, second, third = corners[number - 1], corners[number], corners[(number + 1) % len(corners)]
+    negligible = _NEGLIGIBLE * float(np.ptp(ear, axis=0).max()) ** 2
+    if _turn(first, second, third) <= negligible:
         return False
-    others = [corner for corner in corners if not any(corner is own for own in (first, second, third))]
-    return not any(
-        _turn(first, second, other) >= 0.0 and _turn(second, third, other) >= 0.0 and _turn(third, first, other) >= 0.0
-        for other in others
-    )
+    others = [corner for corner in corners if not any(corner is own for own in ear)]
+    sides = ((first, second), (second, third), (third, first))
+    return not any(all(_turn(*side, other) >= -negligible for side in sides) for other in others)

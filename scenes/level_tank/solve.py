@@ -125,6 +125,7 @@ def misplacements() -> Iterator[None]:
 
 TREATED = (
     "strips and rectangles in a box; discs and rings about the axis of a cylinder; rectangles, discs, rings and free "
-    "polygons that keep off the walls or cover the plan; tanks without plates"
+    "polygons that keep off the walls or cover the plan; tanks without plates; strips and polygons with sides on walls "
+    'also beside others, with model = "volume" in [tank]'
 )
 """Tanks that are solved."""

@@ -52,10 +52,11 @@ def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
+    from hydroelastic.physics.contours import Contour
     from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 
     if body.vertices is not None:
-        yield from _vertices_make_a_polygon(index, body.shape_key, body.vertices)
+        yield from sides_are_long(("body", index, body.shape_key), body.vertices)
     shape = ("body", index, body.shape_key)
     try:
         contour = float_contour(body, scene.folder)
@@ -68,7 +69,8 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
             "close enough to be joined smoothly, and three in a line for a straight side",
         )
         return
-    yield from _section_is_simple(shape, contour)
+    if shape[-1] in ("vertices", "file", "outline"):
+        yield from contour_is_simple(shape, contour if isinstance(contour, Contour) else contour.contour)
     yield from _sizes_fit(scene, index, body, contour)
     densities = scene.densities_at(scene.level_of(body))
     try:
@@ -92,38 +94,34 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
     yield from _arms_fit(index, body, placed.hull.bounds)
 
 
-def _vertices_make_a_polygon(
-    index: int, body_key: str, vertices: tuple[tuple[float, float], ...]
+def sides_are_long(
+    location: tuple[str | int, ...], vertices: tuple[tuple[float, float], ...]
 ) -> Iterator[InitErrorDetails]:
+    """Yield a side of a polygon that is too short to be resolved, or of no length."""
     from hydroelastic.physics.point_contours import shortest_side
 
-    location = ("body", index, body_key)
     length, size, number = shortest_side(vertices)
     if length <= SHORTEST_SIDE * size:
         yield problem_at(
             location,
             None,
-            f"the side that begins with vertex {number + 1} is {length:g} m long, too short beside the section",
+            f"the side that begins with vertex {number + 1} is {length:g} m long, too short beside the whole",
             allowed=f"at least {SHORTEST_SIDE * size:g} m; the first vertex is not repeated at the end",
         )
 
 
-def _section_is_simple(
-    location: tuple[str | int, ...], contour: Contour | SolidOfRevolution
-) -> Iterator[InitErrorDetails]:
-    from hydroelastic.physics.contours import Contour
+def contour_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
+    """Yield a place where a contour meets itself."""
     from hydroelastic.physics.point_contours import self_crossing
 
-    if location[-1] not in ("vertices", "file", "outline"):
-        return
-    crossing = self_crossing(contour if isinstance(contour, Contour) else contour.contour)
+    crossing = self_crossing(contour)
     if crossing is not None:
         x, y = crossing
         yield problem_at(
             location,
             None,
             f"the contour crosses, touches or folds back on itself near ({x:g}, {y:g})",
-            allowed="points in their order around the section, in either sense",
+            allowed="points in their order around it, in either sense",
         )
 
 

@@ -11,9 +11,11 @@ import numpy as np
 from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.meshes.plan_regions import outline_region
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
 from hydroelastic.physics.tank import ROUND_OFF
+from hydroelastic.scenes.models.float_checks import contour_is_simple, sides_are_long
 from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
@@ -117,6 +119,17 @@ def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _polygons_are_simple(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    given = [(("body", index, "points"), body.points) for index, body in enumerate(scene.body) if body.kind == "plate"]
+    for location, points in ((("tank", "plan"), scene.tank.plan), *given):
+        if points is not None:
+            # It takes SciPy, whose import is slow.
+            from hydroelastic.physics.point_contours import polygon_contour
+
+            short = list(sides_are_long(location, points))
+            yield from short or contour_is_simple(location, polygon_contour(points))
+
+
 def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     tank = scene.tank
     if tank.bed is not None and tank.shape is not None:
@@ -187,6 +200,18 @@ def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _edges_can_be_held(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    for index, plate in enumerate(scene.plates):
+        straight = plate.outline == "polygon" or (plate.outline == "rectangle" and scene.tank.width is None)
+        if plate.edge != "free" and straight:
+            yield problem_at(
+                ("body", index, "edge"),
+                plate.edge,
+                "walls hold edges of rectangles and strips in a box, of discs and rings about the axis of a cylinder",
+                allowed='"free"',
+            )
+
+
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     unit, depth = physical_plan(scene).unit, scene.depth
     least, most = DEPTH_TO_LENGTH
@@ -215,8 +240,9 @@ def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
         elif isinstance(plan, Cylinder) and isinstance(outline, Disc):
             away = hypot(*outline.position)
             inside = away + outline.radius <= plan.radius * reach
-            hole = outline.inner_radius if away == 0.0 else 0.0
-            inside = inside and hole >= plan.inner_radius * (1.0 - ROUND_OFF)
+            # An inner cylinder stands in the hole of a ring, or beside the plate.
+            room = max(outline.inner_radius - away, away - outline.radius)
+            inside = inside and (not plan.inner_radius or room >= plan.inner_radius * (1.0 - ROUND_OFF))
             said = f"radius {plan.radius:g} m" + (
                 f" about a cylinder of {plan.inner_radius:g} m" * bool(plan.inner_radius)
             )
@@ -253,16 +279,21 @@ def _plan_bounds(plan: Plan) -> _Bounds:
 
 
 def _touch(one: Outline, other: Outline, negligible: float) -> bool:
-    """Whether two outlines overlap; of polygons and of shapes of different kinds the boxes around them."""
+    """Whether two outlines overlap, or are closer than something negligible."""
     if isinstance(one, Disc) and isinstance(other, Disc):
         away = hypot(one.position[0] - other.position[0], one.position[1] - other.position[1])
-        if away == 0.0:
-            return min(one.radius, other.radius) + negligible >= max(one.inner_radius, other.inner_radius)
-        return away <= one.radius + other.radius + negligible
-    return all(
-        low <= upper + negligible and lower <= high + negligible
+        smaller, larger = sorted((one, other), key=lambda disc: disc.radius)
+        apart = max(away - smaller.radius - larger.radius, larger.inner_radius - away - smaller.radius)
+        return apart <= negligible
+    if any(
+        low > upper + negligible or lower > high + negligible
         for (low, high), (lower, upper) in zip(_bounds(one), _bounds(other), strict=True)
-    )
+    ):
+        return False
+    if isinstance(one, Rectangle | Strip) and isinstance(other, Rectangle | Strip):
+        return True
+    first, second = (outline_region(outline, "") for outline in (one, other))
+    return first.gap(second) <= negligible or first.contains(second) or second.contains(first)
 
 
 def _bounds(outline: Outline) -> _Bounds:
@@ -323,9 +354,9 @@ def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_plan_is_complete, _something_moves, volumes_are_of_plates),
+    (_plan_is_complete, _polygons_are_simple, _something_moves, volumes_are_of_plates),
     (_files_can_be_read,),
-    (_outlines_fit_the_plan, _depth_fits_the_plan, _bed_is_below_the_surface),
+    (_outlines_fit_the_plan, _edges_can_be_held, _depth_fits_the_plan, _bed_is_below_the_surface),
     (liquids_are_layered, columns_lie_in_the_tank, shaped_beds_are_simple),
     (_plates_lie_in_the_tank, floats_lie_in_the_tank),
     (_plates_keep_apart, _groups_are_in_range),

@@ -195,10 +195,10 @@ class OpenModel:
 
     def cells_missed(self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT) -> np.ndarray:
         """The same in each own cell, shape (potentials, cells)."""
-        pencil = self.pencil
+        pencil, outside = self.pencil, self._in_absorbing_layer
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
-        cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        weighed: np.ndarray = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
+        cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, len(outside)).sum(axis=1)
+        weighed: np.ndarray = cells * np.where(outside, np.reshape(layer_weight, (-1, 1)), 1.0)
         return weighed
 
     def summed_over_cells(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

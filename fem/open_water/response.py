@@ -97,12 +97,13 @@ def solve_response(
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         joined = joined_errors(causes, float(swept.errors.max()))
         table = _table(request, solver.model, omegas, swept.solutions, errors, swept.errors, of_loads)
-        units = solver.model.basin.units
+        weight = solver.model.basin.units.density * solver.model.basin.units.gravity
         # Of a wave of unit elevation that is reflected in full, the drift force in deep water is ρg/2.
-        drift = float(np.nan_to_num(table.drift_error).max(initial=0.0)) / (0.5 * units.density * units.gravity)
+        drift = float(np.nan_to_num(table.drift_error).max(initial=0.0)) / (0.5 * weight)
+        largest = max(table.largest_load_error(weight), drift) / joined.largest_total
         return Attempt(
             result=_Sweep(solver=solver, swept=swept, table=table),
-            causes=joined.scaled(max(1.0, max(table.largest_load_error, drift) / joined.largest_total)),
+            causes=replace(joined.scaled(max(1.0, largest)), rounding=joined.rounding),
             resolution=resolution,
         )
 

@@ -23,6 +23,9 @@ Complexes: TypeAlias = npt.NDArray[np.complex128]
 DIRECTIONS = (0.0, np.pi)
 """Directions in which incident waves of a `RadiationTable` travel, rad: to the right, to the left."""
 
+# Part of the load of a wave on a beam that does not follow it, below which loads count as none.
+_NO_LOAD = 1e-4
+
 
 @dataclass(frozen=True, kw_only=True)
 class RadiationTable:
@@ -211,15 +214,26 @@ class ResponseTable:
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
     partial_waves: Complexes | None = None
 
-    @property
-    def largest_load_error(self) -> float:
-        """The largest error of a load along a beam, relative to the largest of it at all frequencies."""
-        pairs = [
-            (getattr(plate, f"{name}_error"), getattr(plate, name))
-            for plate in self.plates
-            for name in ("deflection", "bending_moment", "shear_force")
-        ]
-        return max((float(error.max() / size) for error, of in pairs if (size := np.abs(of).max())), default=0.0)
+    def largest_load_error(self, weight: float) -> float:
+        """The largest error of a load along a beam, relative to the largest of it at all frequencies.
+
+        Loads below a small part of ρgl and ρgl², those of a wave of unit elevation on a beam of length l that does not
+        follow it, count as none.
+
+        Args:
+            weight: ρg of the liquid, N/m³.
+        """
+        found = [0.0]
+        for plate in self.plates:
+            length = plate.positions[-1] - plate.positions[0]
+            for name, held in (
+                ("deflection", 1.0),
+                ("shear_force", weight * length),
+                ("bending_moment", weight * length**2),
+            ):
+                error, of = getattr(plate, f"{name}_error"), getattr(plate, name)
+                found.append(float(error.max() / max(np.abs(of).max(), _NO_LOAD * held)))
+        return max(found)
 
 
 @dataclass(frozen=True, kw_only=True)

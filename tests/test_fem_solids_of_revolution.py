@@ -279,4 +279,5 @@ def test_the_pressure_along_a_hull_gives_the_forces(depth: float, waves_from: Li
     # Both halves of the section meet at the axis, and hull points at the bow have every other order turned.
     signs = (-1.0) ** np.arange(len(pressures))
     np.testing.assert_allclose(hull.pressure[0, 0, 0], signs @ pressures[:, -1], rtol=1e-12)
-    assert np.all(np.diff(hull.points[:, 0]) >= 0.0)
+    # At the axis but for rounding.
+    assert np.all(np.diff(hull.points[:, 0]) > -1e-12)

@@ -207,6 +207,13 @@ def test_polygons_that_cross_are_refused(said: str, changes: dict[str, Any]) -> 
         scene(**changes)
 
 
+def test_a_cover_in_which_nothing_oscillates_is_refused() -> None:
+    cover = {"outline": "rectangle", "position": [5.0, 2.5], "size": [10.0, 5.0], "rigid": True, "mass_per_area": 10.0}
+    stiff = scene(tank={"length": 10.0, "width": 5.0}, body=[cover | {"edge": "sliding"}])
+    with pytest.raises(SceneError, match="nothing oscillates"):
+        solve(stiff)
+
+
 def test_what_no_solver_takes_is_refused_by_check_and_run() -> None:
     touching = scene(tank={"radius": 5.0}, body=[DISC | {"radius": 2.0, "position": [3.0, 0.0]}])
     for use in (lambda: list(checker_of(touching)(touching)), lambda: runner_of(touching)(touching)):

@@ -60,7 +60,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     """Solve a tank in three dimensions and estimate it (collective).
 
     Raises:
-        SceneError: if no solver takes its plan and plates, or its parts do not fit together.
+        SceneError: if no solver takes its plan and plates, its parts do not fit together, or nothing oscillates.
         UnsolvedError: if the eigen-solver fails.
     """
     require_treated(scene)
@@ -83,6 +83,9 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
             )
     except (EigenSolverError, MeshError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
+    if not solution.modes:
+        wrong = "nothing oscillates: no water is free, and no plate can move against a restoring force"
+        raise SceneError(Problem(key="[[body]]", wrong=wrong, remedy="Leave a part of the top free"), file=None)
     return SolvedLevelTank(
         scene=scene,
         tank=solution,

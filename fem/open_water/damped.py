@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from math import atan, pi
 
 import numpy as np
+from mpi4py import MPI
 from scipy.linalg import eig
 
 from hydroelastic.fem.modes import EigenSolverError
@@ -51,6 +52,8 @@ _FARTHEST = 0.25
 _SAME = 1e-6
 # Excitation below this part of the largest is that of asymmetric meshes.
 _NOT_EXCITED = 1e-3
+# Loads of a wave below this part of those of the other one are rounding.
+_CANCELLED = 1e-13
 
 
 def mirror_angle(damping: float) -> float:
@@ -251,6 +254,10 @@ class DampedSolver:
             wave = DeepWaterWave(layers=self.model.basin.scaled_layers, squared=mirrored)
             standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
             fluxes, pressures, own = surface_integrals(self.model, standing)
+        # Beside a slit x is zero but for rounding, by which the flux of waves that grow along it is multiplied.
+        sizes = np.array(self.model.pencil.comm.allreduce(np.abs(fluxes).max(axis=1, initial=0.0), op=MPI.MAX))
+        cancelled = sizes < _CANCELLED * sizes.max()
+        fluxes[cancelled], own[cancelled], own[:, cancelled] = 0.0, 0.0, 0.0
         power = wave.wavenumber * wave.energy
         return _Waves(
             loads=np.vstack([self.model.pencil.loads, -fluxes]),

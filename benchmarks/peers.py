@@ -17,7 +17,6 @@ import tempfile
 from collections.abc import Callable
 from importlib.machinery import PathFinder
 from importlib.metadata import PackageNotFoundError, requires, version
-from importlib.util import find_spec
 from pathlib import Path
 
 from hydroelastic.benchmarks.cases import Code
@@ -59,7 +58,8 @@ def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> 
     Raises:
         PeerError: if it is missing and not installed, or if what was installed cannot be read.
     """
-    if find_spec(PEER_MODULES[code]) is not None:
+    # `importlib.util.find_spec` would find what this process has imported from elsewhere, too.
+    if PathFinder.find_spec(PEER_MODULES[code]) is not None:
         return None
     # The same package in another way has its name first.
     requirement = _requirement(code.split()[0])

@@ -255,7 +255,8 @@ class DampedSolver:
             standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
             fluxes, pressures, own = surface_integrals(self.model, standing)
         # Beside a slit x is zero but for rounding, by which the flux of waves that grow along it is multiplied.
-        sizes = np.array(self.model.pencil.comm.allreduce(np.abs(fluxes).max(axis=1, initial=0.0), op=MPI.MAX))
+        sizes = np.abs(fluxes).max(axis=1, initial=0.0)
+        self.model.pencil.comm.Allreduce(MPI.IN_PLACE, sizes, op=MPI.MAX)
         cancelled = sizes < _CANCELLED * sizes.max()
         fluxes[cancelled], own[cancelled], own[:, cancelled] = 0.0, 0.0, 0.0
         power = wave.wavenumber * wave.energy

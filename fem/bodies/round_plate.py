@@ -21,8 +21,8 @@ from hydroelastic.physics.symmetry import Parity
 
 # Error of the deflection by the first N dry modes, _ERROR (_MODES/N)⁵, measured at the edge of discs.
 _ERROR, _MODES = 6e-5, 4.0
-# Lowest order in which a plate has no rigid motion.
-_BENT = 2
+LOWEST_BENT = 2
+"""The lowest order in which a plate has no rigid motion."""
 
 
 class RoundPlateModel(BodyModel):
@@ -75,10 +75,10 @@ def lowest_elastic(plate: RoundPlate, count: int) -> tuple[int, ...]:
     """Return how many of the lowest elastic dry modes are of each order 0, 1 …; none of a rigid plate."""
     found: list[tuple[float, int]] = []
     # From the second order on the lowest mode rises with the order.
-    for order in range(count + _BENT if plate.bends else 0):
+    for order in range(count + LOWEST_BENT if plate.bends else 0):
         shapes = RoundShapes(plate.of_order(order), len(plate.of_order(order).rigid_motions) + count)
         own = [(float(one / other), order) for one, other in zip(shapes.bending, shapes.squares, strict=True) if one]
-        if len(found) == count and order >= _BENT and min(own)[0] > found[-1][0]:
+        if len(found) == count and order >= LOWEST_BENT and min(own)[0] > found[-1][0]:
             break
         found = sorted([*found, *own])[:count]
     orders = [order for _, order in found]

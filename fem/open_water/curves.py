@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from hydroelastic.fem.bodies.round_plate import LOWEST_BENT
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
 from hydroelastic.fem.open_water.radiation import between
@@ -22,9 +23,8 @@ from hydroelastic.fem.open_water.sweep import SHARE, Problem, Swept, sweep
 _MOST = 1500
 # Frequencies about a resonance ω − iγ, in γ from ω.
 _ABOUT = (-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0)
-# First order of round plates without rigid motions, and bending per elevation below which a distance of it from the
-# spline is not compared with its own size.
-_BENT, _SMALL = 2, 1e-2
+# Bending of round plates per elevation below which a distance of it from the spline is not compared with its own size.
+_SMALL = 1e-2
 # Least distance of a motion from the spline, relative to the largest motion, that counts as missed.
 _LEAST_MISSED = 1e-6
 
@@ -124,7 +124,7 @@ def refined_curves(
         sizes = np.abs(motions).max(axis=(0, 1))
         # Of beams few shapes matter: motions of one unit are compared with the largest of them.
         largest = np.array([sizes[turns == turn].max() for turn in turns])
-        if solver.model.basin.tank.geometry.order >= _BENT:
+        if solver.model.basin.tank.geometry.order >= LOWEST_BENT:
             # Small ones that follow from an accurate basis beside the incident wave would be refined without end.
             largest = np.maximum(largest, _SMALL)
         middles = [float(0.5 * (low + high)) for low, high in intervals]

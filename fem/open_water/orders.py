@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hydroelastic.fem.bodies.round_plate import lowest_elastic
+from hydroelastic.fem.bodies.round_plate import LOWEST_BENT, lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
@@ -39,9 +39,6 @@ from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, j
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.round_plates import RoundPlate
-
-# Number of orders in which plates move as rigid bodies, too.
-_BENT = 2
 
 Solution = TypeVar(
     "Solution",
@@ -251,7 +248,7 @@ def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tup
         lowest.append(expected[0] if expected else inf)
         known = sorted([*known, *expected])[: request.count]
         highest = ABOVE * known[-1] if request.below is None else request.below
-        if len(lowest) > _BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
+        if len(lowest) > LOWEST_BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
             return [order for order, omega in enumerate(lowest) if omega < highest], highest
 
 

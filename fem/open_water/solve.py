@@ -44,7 +44,7 @@ from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTab
 _POWER = 10.0
 # A motion whose error is above the tolerance is solved again, with forces and memory for a smaller one. Not for less
 # than a hundredth of it, which takes several times as long.
-_HALF, _HUNDREDTH = 0.5, 0.01
+_MARGIN, _LEAST = 0.5, 0.01
 
 _Solution: TypeAlias = (
     RadiationSolution
@@ -127,7 +127,7 @@ def solve_open_water(
         solution = _solved(moving if isinstance(request, MotionRequest) else problem, request, memory)
         if isinstance(request, MotionRequest) and solution.error > problem.tolerance:
             # Near a resonance errors of forces and of the memory are magnified in the motion.
-            factor = max(_HALF * problem.tolerance / solution.error, _HUNDREDTH)
+            factor = max(_MARGIN * problem.tolerance / solution.error, _LEAST)
             moving = replace(problem, tolerance=factor * problem.tolerance, solvers={})
             memory = _memory(moving, latest)
             solution = min(solution, _solved(moving, request, memory), key=lambda one: one.error)

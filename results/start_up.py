@@ -2,8 +2,8 @@
 
     ./hydro python results/start_up.py [--scene SCENE] [--repeats N]
 
-Each run is a process of its own. A cold one begins with an empty cache, so that dolfinx compiles every form and the
-renderer every shader; a warm one repeats it with the cache that the cold one left. The caches are temporary folders.
+Each run is a process of its own. A cold one begins with an empty cache, so that the renderer compiles every shader
+and a scene with forms every form; a warm one repeats it with the cache that the cold one left. The caches are temporary folders.
 The least of the repeats is kept, stage by stage. Writes start_up/start_up.csv and start_up/start_up.md.
 """
 
@@ -29,7 +29,6 @@ WHAT = {
     "plan": "choosing the resolution",
     "mesh": "gmsh: import, initialization, mesh",
     "pressure release": "the tone with ψ = 0 on the water: mesh, assembly, solution",
-    "forms": "compiling the forms, or finding them compiled",
     "assemble": "matrices and factorizations",
     "solve": "eigenvalues and modes",
     "count": "inertia",
@@ -49,7 +48,7 @@ def measure_run(scene: str, cache: Path, *, images: bool) -> tuple[Seconds, dict
 
     Args:
         scene: name of a shipped scene, or a file.
-        cache: folder of compiled forms and shaders.
+        cache: folder of what is compiled.
         images: whether to draw the modes.
 
     Returns:

@@ -98,7 +98,8 @@ def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, facto
     figure.add_artist(FieldImage(_view(sample, relative, size), 0, round(_BELOW * scale)))
     _contours(figure, sample, relative)
     write_title(figure, title)
-    write_caption(figure, "Displacement over the largest one; plates are outlined. Left: raised for visibility.")
+    outlined = "; plates are outlined" if sample.plate_of_triangles.any() else ""
+    write_caption(figure, f"Displacement over the largest one{outlined}. Left: raised for visibility.")
     return pixels(figure)
 
 

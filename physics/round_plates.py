@@ -12,6 +12,9 @@ from hydroelastic.physics.dofs import Dof, Turn
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
+LOWEST_BENT = 2
+"""The lowest order in which a plate has no rigid motion."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RoundPlate(Body):

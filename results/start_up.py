@@ -3,8 +3,8 @@
     ./hydro python results/start_up.py [--scene SCENE] [--repeats N]
 
 Each run is a process of its own. A cold one begins with an empty cache, so that the renderer compiles every shader
-and a scene with forms every form; a warm one repeats it with the cache that the cold one left. The caches are temporary folders.
-The least of the repeats is kept, stage by stage. Writes start_up/start_up.csv and start_up/start_up.md.
+and a scene with forms every form; a warm one repeats it with the cache that the cold one left. The caches are temporary
+folders. The least of the repeats is kept, stage by stage. Writes start_up/start_up.csv and start_up/start_up.md.
 """
 
 from __future__ import annotations

@@ -48,7 +48,8 @@ class BodyModel(ABC):
         return count
 
     def expected_tones(self) -> tuple[float, ...]:
-        """Estimate the dimensionless λ of its first elastic tone, for the choice of a mesh; empty for a rigid body."""
+        """Estimate the dimensionless λ of its first elastic tone, for the choice of a mesh; empty for a rigid body, and
+        for a plate whose first elastic tone is of another order."""
         return ()
 
     def ends_of_motions(self) -> tuple[float, ...]:

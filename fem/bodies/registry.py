@@ -28,6 +28,11 @@ def expected_tones(tank: Tank) -> tuple[float, ...]:
     return tuple(tone for index in range(len(tank.bodies)) for tone in body_model(tank, index).expected_tones())
 
 
+def toned_bodies(tank: Tank) -> tuple[int, ...]:
+    """Return the indices of the elastic bodies whose first elastic tone is one of the tank's order."""
+    return tuple(index for index in tank.elastic if body_model(tank, index).expected_tones())
+
+
 def ends_of_motions(tank: Tank) -> tuple[float, ...]:
     """Return the dimensionless λ up to which the modes of the motions of all bodies are sought."""
     return tuple(end for index in range(len(tank.bodies)) for end in body_model(tank, index).ends_of_motions())

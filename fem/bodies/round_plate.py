@@ -16,13 +16,14 @@ from hydroelastic.fem.bodies.model import BodyModel
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import FEW_MODES, PlateLine, dry_modes
 from hydroelastic.physics.dofs import Dof, body_name
-from hydroelastic.physics.round_plates import RoundPlate
+from hydroelastic.physics.round_plates import LOWEST_BENT, RoundPlate
 from hydroelastic.physics.symmetry import Parity
 
 # Error of the deflection by the first N dry modes, _ERROR (_MODES/N)⁵, measured at the edge of discs.
 _ERROR, _MODES = 6e-5, 4.0
-LOWEST_BENT = 2
-"""The lowest order in which a plate has no rigid motion."""
+# The added mass of rigid discs on deep liquids with ψ = 0 beside them is that of a depth of a/2.36 in heave and of
+# a/4.4 in pitch: of about a/(2.4 + 2n) in shapes of order n.
+_OF_HEAVE, _OF_AN_ORDER = 2.4, 2.0
 
 
 class RoundPlateModel(BodyModel):
@@ -64,6 +65,16 @@ class RoundPlateModel(BodyModel):
         # The errors of all orders add up, and about so many of them bend the plate.
         orders = 1.0 + wavenumber * self.plate.radius
         return ceil(half_waves + _MODES * (_ERROR * orders / tolerance) ** 0.2) + 2
+
+    def expected_tones(self) -> tuple[float, ...]:
+        """Estimate λ of the lowest elastic dry mode on a deep open liquid, where it is one of the tank's order."""
+        if not self.elastic_shapes(1):
+            return ()
+        plate, order, level = self.plate, self.tank.geometry.order, self.tank.level_of(self.index)
+        shapes = RoundShapes(plate.of_order(order), len(plate.of_order(order).rigid_motions) + 1)
+        stiffness = shapes.bending[-1] / shapes.squares[-1] + float(plate.hydrostatic) * level.jump
+        liquid = self.tank.density_at(level) * plate.radius / (_OF_HEAVE + _OF_AN_ORDER * order)
+        return (float(stiffness / (plate.mass_per_area + liquid)),)
 
     def elastic_shapes(self, count: int) -> int:
         """See `BodyModel.elastic_shapes`."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
@@ -67,11 +67,12 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
     order, dry = lowest_dry(partial(plate_line, tank, separation, plate))
     body = tank.plates[plate]
     start, end = separation.places[plate]
+    stiffness, mass = body.flexural_rigidity * dry + float(body.hydrostatic), body.mass_per_area
     wave = moving_piece(tank, end - start, plate).squared_frequency(dry**0.25)
     found = PlateTone(
         plate=plate,
         order=order,
-        dry=(body.flexural_rigidity * dry + float(body.hydrostatic)) / max(body.mass_per_area, 1e-300),
+        dry=stiffness / mass if mass else inf,
         squares=1.0,
         stiffness=0.0,
         mass=0.0,

@@ -111,7 +111,7 @@ class PlateTone:
     Attributes:
         plate: its index.
         order: order of its lowest elastic dry mode; ``None`` where orders are not separated.
-        dry: dimensionless λ of that mode.
+        dry: dimensionless λ of that mode; infinite of a plate without mass.
         squares: ∫W² of its shape over the plate.
         stiffness: its generalized stiffness.
         mass: its generalized mass.

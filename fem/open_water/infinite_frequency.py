@@ -114,7 +114,7 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
     basin = open_basin(problem.tank, 0.0)
     tank, watch = basin.tank, problem.watch
     tolerance = workable_tolerance(problem.tolerance, tank.depth)
-    first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.elastic))
+    first = infinite_frequency_resolution(tank, tolerance, ())
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         absorbing_layer = sized_absorbing_layer(

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hydroelastic.fem.bodies.round_plate import LOWEST_BENT, lowest_elastic
+from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
@@ -38,7 +38,7 @@ from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, Re
 from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
-from hydroelastic.physics.round_plates import RoundPlate
+from hydroelastic.physics.round_plates import LOWEST_BENT, RoundPlate
 
 Solution = TypeVar(
     "Solution",

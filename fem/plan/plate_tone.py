@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, pi
+from math import ceil, inf, pi
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -130,7 +130,7 @@ def _dry_tones(tank: LevelTank, found: ClassModes) -> list[tuple[int, int, Plate
         tone = PlateTone(
             plate=plate,
             order=None,
-            dry=stiffness / max(mass, 1e-300),
+            dry=stiffness / mass if mass else inf,
             squares=_squares(body, first, tank.plates[plate]),
             stiffness=stiffness,
             mass=mass,

@@ -16,7 +16,7 @@ import numpy as np
 
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.surfaces import Body, LiquidSurface
-from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
+from hydroelastic.physics.dofs import Dof
 
 SHARED = 0.5
 """A mode that has more than this part of the largest participation shares the tone."""
@@ -71,7 +71,7 @@ class Amplitudes(Protocol):
 
 def participations(modes: Amplitudes, bodies: tuple[Body, ...], body: int) -> np.ndarray:
     """Return pₙ of a beam's first dry mode, shape (modes,)."""
-    first = bodies[body].dofs.index(FIRST_ELASTIC)
+    first = [dof.is_elastic for dof in bodies[body].dofs].index(True)
     position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
     # Modes have unit generalized mass, so φᵀKφ = λ.
     parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues

@@ -15,6 +15,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.added_mass import body_responses
+from hydroelastic.fem.bodies.registry import toned_bodies
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
@@ -124,7 +125,7 @@ def infinite_frequency_limit(
     """
     # About an axis nothing moves in some orders.
     moving = [index for index in tank.rigid if tank.bodies[index].rigid_motions]
-    has_tones, has_added_mass = tank.elastic and tank.has_waves, moving and tank.has_infinite_frequency_limit
+    has_tones, has_added_mass = toned_bodies(tank) and tank.has_waves, moving and tank.has_infinite_frequency_limit
     if not has_tones and not has_added_mass:
         return InfiniteFrequencyLimit()
     if has_tones:
@@ -199,7 +200,7 @@ def _with_tones(
     count = resolution.modes
     while True:
         field = solve_parts(mesh, tank, resolution.shapes, pencils, count)
-        found = [elastic_tone(field.modes, field.bodies, body) for body in tank.elastic]
+        found = [elastic_tone(field.modes, field.bodies, body) for body in toned_bodies(tank)]
         if all(tone.certain for tone in found) or len(field.modes.eigenvalues) < count:
             break
         count *= 2

@@ -1,8 +1,8 @@
 """Tanks of revolution or of an extruded section between walls, order by order.
 
 Of each order the modes of the half-plane (r, z), or of the section, are solved for. Those of order n ≥ 1 about an axis
-come in pairs, cos nθ and sin nθ. The lowest frequency of an order grows with n, since n² is added
-to a positive form: orders are added until it exceeds all frequencies that are asked for.
+come in pairs, cos nθ and sin nθ. The lowest frequency of an order grows with n ≥ 1, of elastic plates with n ≥ 2, since
+n² is added to a positive form: orders are added until it exceeds all frequencies that are asked for.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.elastic_tone import mode_kind
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
+from hydroelastic.physics.round_plates import LOWEST_BENT
 from hydroelastic.physics.tank import Tank
 
 
@@ -75,8 +76,10 @@ def solve_by_order(
     Raises:
         ValueError: if there are beams.
     """
-    if physical.elastic:
-        raise ValueError("only rigid floats move in tanks that are solved by order")
+    if physical.beams:
+        raise ValueError("beams do not bend across the section: no order describes them")
+    # From this order on the lowest frequency rises with the order.
+    rising = LOWEST_BENT if physical.elastic else 1
     orders: list[TankSolution] = []
     found: list[OrderedMode] = []
     while True:
@@ -86,8 +89,7 @@ def solve_by_order(
         orders.append(solution)
         own = _modes(solution, order)
         found = sorted([*found, *own], key=lambda mode: mode.omega)[:modes]
-        # Bodies move in the orders 0 and 1.
-        if order > 0 and (not own or (len(found) == modes and own[0].omega > found[-1].omega)):
+        if order >= rising and (not own or (len(found) == modes and own[0].omega > found[-1].omega)):
             break
     reasons = [f"order {order}: {reason}" for order, one in enumerate(orders) for reason in one.reasons]
     return OrderedSolution(orders=tuple(orders), modes=tuple(found), reasons=tuple(reasons))

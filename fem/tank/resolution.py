@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import ceil, e, log10
 from typing import TYPE_CHECKING
 
-from hydroelastic.fem.bodies.registry import body_model
+from hydroelastic.fem.bodies.registry import body_model, toned_bodies
 from hydroelastic.physics.local_waves import (
     LevelPiece,
     modes_below,
@@ -196,7 +196,7 @@ def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[flo
         tolerance: largest relative error that is accepted.
         tones: estimated dimensionless λ of the first elastic tone of each beam.
     """
-    expected = dict(zip(tank.elastic, tones, strict=True))
+    expected = dict.fromkeys(tank.elastic, 0.0) | dict(zip(toned_bodies(tank), tones, strict=False))
     wavenumbers = tuple(
         max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected[piece.body]))
         if piece.body in expected
@@ -206,7 +206,7 @@ def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[flo
     )
     exponent = sharpest_exponent(tank, infinite_frequency=True)
     resolution = resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
-    return replace(resolution, modes=_MODES_OF_A_BEAM * len(tank.elastic))
+    return replace(resolution, modes=_MODES_OF_A_BEAM * len(tones))
 
 
 def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:

@@ -3,22 +3,27 @@ these, sampled in plan view."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 from typing import Any
 
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, SampledSurface
+from hydroelastic.fem.bodies.round_plate import RoundShapes, plate_of
+from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone, SampledSurface
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.surface_line import along_the_surface
+from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.orders import solve_by_order
-from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
+from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.tank import Tank
+from hydroelastic.physics.plate import Disc, Plate
+from hydroelastic.physics.tank import ROUND_OFF, Tank
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,29 +62,80 @@ class OrderProblem:
         r, angle = np.hypot(x, y) * self.unit, np.arctan2(y, x)
         if not geometry.is_revolved:
             r, angle = x * self.unit, np.pi * y * self.unit / geometry.width
-        places, (potential,) = along_the_surface(self.pencil.liquid, [mode.potential])
-        psi = np.interp(r, places, potential)
-        elevation = mode.eigenvalue * psi
+        elevation = np.zeros_like(r)
+        # A lid, or a plate from wall to wall, leaves none.
+        if FREE_SURFACE in self.pencil.liquid.tank.facet_names:
+            places, (potential,) = along_the_surface(self.pencil.liquid, [mode.potential])
+            elevation += mode.eigenvalue * np.interp(r, places, potential)
         tank, first = self.solution.tank, 0
         for index, body in enumerate(self.solution.field.bodies):
             own = mode.body_amplitudes[first : first + body.size]
             first += body.size
-            left, right = tank.bodies[index].waterplane
-            middle = tank.floats[index].hydrostatics.centre_of_mass[0]
-            upwards = {"heave": np.ones_like(r), "pitch": r, "roll": r - middle}
-            raised = sum(
-                (
-                    amplitude * upwards.get(dof.motion, np.zeros_like(r))
-                    for amplitude, dof in zip(body.motions @ own, body.dofs, strict=True)
-                ),
-                np.zeros_like(r),
-            )
-            elevation = np.where((left < r) & (r < right), raised, elevation)
+            if index in tank.floats or _is_on_top(tank, index):
+                left, right = tank.bodies[index].waterplane
+                covered = (left - ROUND_OFF < r) & (r < right + ROUND_OFF)
+                elevation[covered] = self._raised(index, body, own, r[covered])
         turn = np.sin(self.order * angle) if second else np.cos(self.order * angle)
         # The field below is not that of a level bed, and is not given.
         return SampledSurface(
             elevation=elevation * turn, wavenumbers=np.zeros(1), potentials=np.full((len(r), 1), np.nan)
         )
+
+    def _raised(self, index: int, body: Body, amplitudes: FloatArray, r: FloatArray) -> FloatArray:
+        """The upward displacement of a body at radii, or abscissae, within its waterplane."""
+        tank = self.solution.tank
+        if index not in tank.floats:
+            points, upwards = np.vstack([r, np.zeros_like(r)]), np.array([[0.0], [1.0]])
+            shapes: list[np.ndarray] = [body.shapes(points, upwards, number) for number in range(body.size)]
+        else:
+            middle = tank.floats[index].hydrostatics.centre_of_mass[0]
+            rigid = {"heave": np.ones_like(r), "pitch": r, "roll": r - middle}
+            shapes = [rigid.get(dof.motion, np.zeros_like(r)) for dof in body.dofs]
+        raised: FloatArray = np.reshape(shapes, (body.size, len(r))).T @ (body.motions @ amplitudes)
+        return raised
+
+
+def _is_on_top(tank: Tank, body: int) -> bool:
+    return tank.level_of(body) is tank.levels[-1]
+
+
+def _outlined(tank: Tank, body: int) -> Plate:
+    """A round plate as one of a level tank, whose outline is drawn; a membrane has no rigidity."""
+    plate = plate_of(tank.bodies[body])
+    return Plate(
+        outline=Disc(radius=plate.radius, inner_radius=plate.inner_radius),
+        flexural_rigidity=plate.flexural_rigidity or inf,
+        mass_per_area=plate.mass_per_area,
+        poisson_ratio=plate.poisson_ratio,
+        hydrostatic=plate.hydrostatic,
+    )
+
+
+def _plate_tone(problem: OrderProblem, tone: ToneSolution) -> PlateTone:
+    """The first elastic tone of a round plate as that of a level tank."""
+    solution, body = problem.solution, problem.solution.field.bodies[tone.body]
+    first = [dof.is_elastic for dof in body.dofs].index(True)
+    stiffness, mass = float(body.stiffness[first]), float(body.mass[first, first])
+    shapes = RoundShapes(plate_of(solution.tank.bodies[tone.body]), first + 1)
+    found = PlateTone(
+        plate=tone.body,
+        order=problem.order,
+        dry=stiffness / mass if mass else inf,
+        squares=solution.tank.geometry.measure * float(shapes.squares[first]),
+        stiffness=stiffness,
+        mass=mass,
+        reason=tone.reason,
+        pressure_release=tone.pressure_release,
+        pressure_release_error=tone.pressure_release_error,
+    )
+    if tone.tone is None:
+        return found
+    return replace(
+        found,
+        tone=tone.tone,
+        eigenvalue=float(problem.modes.eigenvalues[tone.tone.index]),
+        relative_error=float(solution.relative_errors[tone.tone.index]),
+    )
 
 
 def round_solution(
@@ -100,16 +156,18 @@ def round_solution(
         density=layer.density,
         gravity=physical.gravity,
         top=physical.top,
+        plates=tuple(_outlined(physical, index) for index in physical.elastic if _is_on_top(physical, index)),
     )
     orders, unit = found.orders, tank.plan.unit / physical.length
     problems = [OrderProblem(solution=one, order=order, unit=unit) for order, one in enumerate(orders)]
+    scaled = tank.scaled()
     seconds: dict[str, float] = {}
     for one in orders:
         for stage, value in one.seconds.items():
             seconds[stage] = seconds.get(stage, 0.0) + value
     return LevelSolution(
         physical=tank,
-        tank=tank.scaled(),
+        tank=scaled,
         model=f"order by order in the {'half-plane of revolution' if geometry.is_revolved else 'section'}",
         tolerance=tolerance,
         count=modes,
@@ -121,8 +179,8 @@ def round_solution(
             )
             for mode in found.modes
         ),
-        tones=(),
-        zero_modes=sum(one.modes.zero_modes for one in orders),
+        tones=tuple(_plate_tone(problem, tone) for problem in problems for tone in problem.solution.tones),
+        zero_modes=sum(one.multiplicity * one.modes.zero_modes for one in problems),
         counted=all(one.counted for one in orders),
         size={
             "problems": len(orders),
@@ -131,7 +189,7 @@ def round_solution(
             "poles": 0,
             "dofs": sum(one.field.dofs for one in orders),
             "surface_unknowns": sum(one.field.surface_unknowns for one in orders),
-            "plate_shapes": 0,
+            "plate_shapes": sum(one.field.bodies[index].size for one in orders for index in one.tank.elastic),
         },
         solves=sum(one.modes.solves for one in orders),
         attempts=max(one.attempts for one in orders),

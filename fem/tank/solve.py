@@ -16,7 +16,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
-from hydroelastic.fem.bodies.registry import expected_tones
+from hydroelastic.fem.bodies.registry import expected_tones, toned_bodies
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.modes import Mode, ModeSet
@@ -215,7 +215,7 @@ def _judged(
 ) -> TankSolution:
     """Return an attempt with its estimated errors and reasons."""
     tolerance, count = asked_for
-    tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(tank.elastic))
+    tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(toned_bodies(tank)))
     complete = len(field.modes.eigenvalues) <= resolution.modes
     moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
     with watch.stage("count"):
@@ -293,7 +293,7 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
     if not solution.counted:
         yield "an independent count of the modes by inertia disagrees: a mode may be missing"
     for tone in solution.tones:
-        beam = f"of beam {tone.body + 1}"
+        beam = f"of {'plate' if solution.tank.geometry.is_revolved else 'beam'} {tone.body + 1}"
         if tone.tone is not None and not tone.tone.certain:
             yield f"the first elastic tone {beam} may lie above the modes computed"
         elif tone.tone is not None:

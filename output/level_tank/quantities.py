@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import pi
+from math import isfinite, pi
 from typing import Any, Protocol
 
 import numpy as np
@@ -60,11 +60,10 @@ def _tones(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
 
 
 def _tone(solution: LevelSolution, tone: PlateTone) -> dict[str, Any]:
-    massless = solution.tank.plates[tone.plate].mass_per_area == 0.0
     found: dict[str, Any] = {
         "body": tone.plate + 1,
         "order": tone.order,
-        "dry_omega": None if massless else solution.omega(tone.dry),
+        "dry_omega": solution.omega(tone.dry) if isfinite(tone.dry) else None,
         "pressure_release_omega": None if tone.pressure_release is None else solution.omega(tone.pressure_release),
         "pressure_release_relative_error": tone.pressure_release_error,
         **dict.fromkeys(_OF_TONE),

@@ -5,14 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.bodies import MOST_BODIES
+from hydroelastic.scenes.models.body_kinds import kind_of_body
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
+from hydroelastic.scenes.models.round_plate_checks import round_plates_are_in_range, round_plates_keep_apart
+from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -52,20 +56,25 @@ class OrderedTankScene(TankParts):
         problems = list(_bed_fits(self))
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
-        require_fit(self, STAGES)
+        require_fit(self, (*STAGES, (_plates_lie_in_the_tank, round_plates_keep_apart, round_plates_are_in_range)))
         return self
 
 
+RoundBody = Annotated[
+    Annotated[RevolvedFloat, Tag("float")] | Annotated[SeaPlate, Tag("plate")], Discriminator(kind_of_body)
+]
+
+
 class RoundTankScene(OrderedTankScene):
-    """A tank of revolution, with floats on its axis or none.
+    """A tank of revolution, with floats and plates on its axis or none.
 
     Raises:
         SceneError: if a value is not allowed or the parts do not fit together.
     """
 
     tank: RoundTank = Field(description="the tank")
-    body: tuple[RevolvedFloat, ...] = Field(
-        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats on the axis, in any order"
+    body: tuple[RoundBody, ...] = Field(
+        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats and plates on the axis"
     )
 
     @property
@@ -77,6 +86,17 @@ class RoundTankScene(OrderedTankScene):
     def is_revolved(self) -> bool:
         """See `TankParts.is_revolved`."""
         return True
+
+
+def _plates_lie_in_the_tank(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
+    for index, plate in scene.plates:
+        if plate.radius > scene.tank.length * (1.0 + ROUND_OFF):
+            yield problem_at(
+                ("body", index, "radius"),
+                plate.radius,
+                "the plate is wider than the tank",
+                allowed=f"up to {scene.tank.length:g} m, the tank's radius",
+            )
 
 
 def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:

@@ -24,7 +24,8 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         depth, radius = scene.liquid[0].depth, scene.tank.length
         bed = f"bed that is part of a sphere of radius {0.5 * (radius**2 + depth**2) / depth:g} m"
     else:
-        bed = f"bed of {len(outline) - 1} {'cones' if scene.is_revolved else 'planes'}"
+        parts, part = len(outline) - 1, "cone" if scene.is_revolved else "plane"
+        bed = f"bed of {parts} {part}s" if parts > 1 else f"bed that is a {part}"
     if scene.is_revolved:
         what = (
             f"A tank of revolution of radius {scene.tank.length:g} m with a {bed}, order by order in the half-plane "
@@ -49,5 +50,8 @@ def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:
     yield "ψ", f"{where}, of each order", "an ideal liquid that starts from rest has a potential"
     if scene.tank.top == "free":
         yield "η", "on the still surface", "it keeps gravity waves"
-    for number, body in enumerate(scene.body, 1):
-        yield f"motions of float {number}", ", ".join(body.motions), "it is rigid"
+    for index, body in scene.floats:
+        yield f"motions of float {index + 1}", ", ".join(body.motions), "it is rigid"
+    for index, plate in scene.plates:
+        what = "it is rigid" if plate.rigid else "it bends in its dry modes of each order"
+        yield f"w of plate {index + 1}", f"r from {plate.start:g} to {plate.end:g} m, w = Σ aᵢ Wᵢ(r) cos nθ", what

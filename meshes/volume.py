@@ -24,7 +24,7 @@ from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
-from hydroelastic.meshes.tagged_mesh import MisplacedError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
@@ -45,6 +45,8 @@ from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
 """Names of the planes of symmetry, by the axis that is normal to them."""
+CELLS_OF_A_CUBE = 8.5
+"""Tetrahedra of the size of a cube's edge in it, measured."""
 
 # Growth of the size of cells per distance from an edge.
 _GROWTH = 0.6
@@ -54,6 +56,8 @@ _SAMPLES = 200
 _LEAST_CURVED = 0.2
 # Part of the area of a plate that may lie elsewhere.
 _LEVEL = 1e-7
+# That gmsh makes, on one process and with a gigabyte for each million.
+_MOST_CELLS = 3e6
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
 
@@ -113,6 +117,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             # Meshes that are cut open are not refined.
             surfaces = {} if {BAFFLE, INTERFACE} & set(faces.values()) else _surfaces(apart)
             sizes, faces = (sizes.coarse, apart) if surfaces else (replace(sizes, refinements=0), faces)
+        _require_few(parts.volume / sizes.bulk**3)
         _set_sizes(tank, sizes, edges)
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
@@ -214,6 +219,19 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         del faces[replaced]
         faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
     return _Parts(layers=layers, faces=faces, volume=volume)
+
+
+def _require_few(cubes: float) -> None:
+    """Refuse a mesh that gmsh, on one process, would not end in sensible time and memory, of so many cubes of its size.
+
+    Raises:
+        MeshError: if it has too many cells.
+    """
+    if cubes * CELLS_OF_A_CUBE > _MOST_CELLS:
+        raise MeshError(
+            f"about {cubes * CELLS_OF_A_CUBE:.1g} tetrahedra would be needed, and {_MOST_CELLS:.1g} can be made: the "
+            "cells are as small as the liquid is shallow, or as its waves are short"
+        )
 
 
 def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:

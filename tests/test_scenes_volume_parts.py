@@ -230,3 +230,11 @@ def test_a_hull_with_a_hole_is_refused_with_file_and_place(tmp_path: Path) -> No
     (tmp_path / "scow.toml").write_text((folder / f"{SCOW}.toml").read_text(encoding="utf-8"), encoding="utf-8")
     with pytest.raises(SceneError, match=r'(?s)key "file".*scow.stl is not closed'):
         read_scene(tmp_path / "scow.toml")
+
+
+def test_a_volume_of_too_many_cells_is_told_before_it_is_meshed() -> None:
+    """Two liquids 2.6 m deep in a tank 9 km wide: gmsh alone makes a mesh that is cut at an interface."""
+    two = ({"density": 1000.0, "depth": 2.5}, {"density": 800.0, "depth": 0.1})
+    scene = LevelTankScene(tank={"radius": 9281.0, "model": "volume"}, liquid=two)
+    told = "\n".join(line for section in check_level_tank(scene) for line in section.lines)
+    assert "cannot be meshed: about 1e+07 tetrahedra would be needed, and 3e+06 can be made" in told

@@ -13,7 +13,7 @@ from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wave
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
 from hydroelastic.meshes.plan_loops import Mirrors
-from hydroelastic.meshes.volume import VolumeSizes
+from hydroelastic.meshes.volume import CELLS_OF_A_CUBE, VolumeSizes
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -41,8 +41,8 @@ _OF_LAYERED_EDGES, _LAYERED_EDGE_ORDER = {4: 3.5e-4, 6: 3e-5}, 1.2
 _OF_LAYERED_CORNERS, _OF_LAYERED_TIPS = {4: 6e-4, 6: 2e-4}, {4: 6e-4, 6: 2e-4}
 # Cells that layers add to each cell along an edge, over n (n + 1); measured.
 _CELLS_OF_LAYERS = 10.0
-# Cells of edge h in a volume over that over h³, and growing from edges of plates over their length over h; measured.
-_CELLS_OF_VOLUME, _CELLS_OF_EDGES = 8.5, 37.0
+# Cells that grow from edges of plates with the size h there, over their length over h; measured.
+_CELLS_OF_EDGES = 37.0
 _MOST_REFINEMENTS = 4
 # Seconds that an unknown of degree 4 costs by multigrid, over those of one of degree 2; measured.
 _DEARER = 3.0
@@ -203,7 +203,7 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     lengths = [4.0 * plate.outline.area**0.5 for plate in tank.plates]
     lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
     of_edges = _CELLS_OF_EDGES + _CELLS_OF_LAYERS * sizes.layers * (sizes.layers + 1)
-    cells = _CELLS_OF_VOLUME * tank.plan.area * tank.depth / sizes.bulk**3 + of_edges * sum(lengths) / sizes.edge
+    cells = CELLS_OF_A_CUBE * tank.plan.area * tank.depth / sizes.bulk**3 + of_edges * sum(lengths) / sizes.edge
     return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
 
 

@@ -37,7 +37,7 @@ def is_round_tank(document: dict[str, Any]) -> bool:
         return False
     has_float = any(one["kind"] == "float" for one in bodies)
     liquids = document.get("liquid", [])
-    return has_float or is_shaped or (bool(bodies) and isinstance(liquids, list) and len(liquids) > 1)
+    return has_float or is_shaped or (isinstance(liquids, list) and len(liquids) > 1)
 
 
 def _is_on_axis(body: dict[str, Any], *, is_shaped: bool) -> bool:

@@ -58,6 +58,11 @@ class Dof(str):
         return self.kind == "elastic"
 
     @property
+    def is_first_elastic(self) -> bool:
+        """Whether it is the lowest bending mode, of a round plate the lowest of some number of nodal diameters."""
+        return self.is_elastic and self.replace("-", " ").endswith(" 1")
+
+    @property
     def is_rotation(self) -> bool:
         """Whether it is an angle, rad, and not a length, m: the pitch of a beam is the deflection of its ends."""
         return self.kind == "roll"

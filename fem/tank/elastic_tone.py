@@ -71,7 +71,7 @@ class Amplitudes(Protocol):
 
 def participations(modes: Amplitudes, bodies: tuple[Body, ...], body: int) -> np.ndarray:
     """Return pₙ of a beam's first dry mode, shape (modes,)."""
-    first = [dof.is_elastic for dof in bodies[body].dofs].index(True)
+    first = [dof.is_first_elastic for dof in bodies[body].dofs].index(True)
     position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
     # Modes have unit generalized mass, so φᵀKφ = λ.
     parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues

@@ -114,7 +114,7 @@ def _outlined(tank: Tank, body: int) -> Plate:
 def _plate_tone(problem: OrderProblem, tone: ToneSolution) -> PlateTone:
     """The first elastic tone of a round plate as that of a level tank."""
     solution, body = problem.solution, problem.solution.field.bodies[tone.body]
-    first = [dof.is_elastic for dof in body.dofs].index(True)
+    first = [dof.is_first_elastic for dof in body.dofs].index(True)
     stiffness, mass = float(body.stiffness[first]), float(body.mass[first, first])
     shapes = RoundShapes(plate_of(solution.tank.bodies[tone.body]), first + 1)
     found = PlateTone(

@@ -62,6 +62,9 @@ class CellMatrices:
         for first in range(0, len(cells), TOGETHER):
             some = slice(first, first + TOGETHER)
             laplace[some], extension[some] = condensed(self._full(cells[some]), outside)
+        if not self.geometry.transverse:
+            # A constant has no energy. Long waves over a thin layer, with little in each cell, keep their digits.
+            laplace[:, range(outside), range(outside)] -= laplace.sum(axis=2)
         return laplace, extension
 
     def _full(self, cells: np.ndarray) -> np.ndarray:

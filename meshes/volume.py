@@ -58,6 +58,8 @@ _LEAST_CURVED = 0.2
 _LEVEL = 1e-7
 # That gmsh makes, on one process and with a gigabyte for each million.
 _MOST_CELLS = 3e6
+# Thickness of a liquid over the size of the cells, below which gmsh may not end.
+_THINNEST = 1e-2
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
 
@@ -107,6 +109,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
         return mesh_of_file(tank.plan)
     bed = depth_over(tank)
+    _require_thick(tank, sizes)
     with gmsh_model():
         parts = _parts(tank, mirrors)
         _require_covered(tank, parts, 2 ** sum(mirror is not None for mirror in mirrors))
@@ -219,6 +222,16 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         del faces[replaced]
         faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
     return _Parts(layers=layers, faces=faces, volume=volume)
+
+
+def _require_thick(tank: VolumeTank, sizes: VolumeSizes) -> None:
+    """Refuse two liquids, one of which is much thinner than the cells.
+
+    Raises:
+        MeshError: if one is.
+    """
+    if tank.lower is not None and min(tank.lower.depth, tank.depth - tank.lower.depth) < _THINNEST * sizes.bulk:
+        raise MeshError("one of the liquids is so thin that its cells would be flat: leave it out, or make it thicker")
 
 
 def _require_few(cubes: float) -> None:

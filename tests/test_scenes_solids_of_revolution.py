@@ -160,6 +160,25 @@ def test_a_tank_of_one_section_over_a_width_is_solved_by_order() -> None:
     assert modes[1]["omega"] == pytest.approx((9.81 / 2.0) ** 0.5, rel=1e-6)
 
 
+@pytest.mark.parametrize("top", ["free", "rigid"])
+def test_two_liquids_in_a_box_are_solved_by_order(top: str) -> None:
+    """Lamb, Hydrodynamics, § 231: with b = ω²/gk, (ρ₂c₁c₂ + ρ₁)b² − ρ₂(c₁ + c₂)b + ρ₂ − ρ₁ = 0, or
+    (ρ₂c₂ + ρ₁c₁)b = ρ₂ − ρ₁ under a lid, cᵢ = coth khᵢ."""
+    two = [{"density": 1000.0, "depth": 0.7}, {"density": 800.0, "depth": 0.5}]
+    document = {"tank": {"length": 2.0, "width": 1.0, "top": top}, "liquid": two}
+    assert is_canal(document)
+    scene = CanalScene.model_validate(document | {"accuracy": {"modes": 5, "tolerance": 1e-6}})
+    exact = []
+    for along, across in ((1, 0), (2, 0), (0, 1), (1, 1), (2, 1), (3, 0), (0, 2)):
+        k = pi * np.hypot(along / 2.0, across)
+        above, below = 1.0 / np.tanh(0.5 * k), 1.0 / np.tanh(0.7 * k)
+        free = [1000.0 * above * below + 800.0, -1000.0 * (above + below), 200.0]
+        covered = [1000.0 * below + 800.0 * above, -200.0]
+        exact += [(9.81 * k * ratio) ** 0.5 for ratio in np.roots(free if top == "free" else covered)]
+    found = [mode["omega"] for mode in run_round_tank(scene).summary["modes"]]
+    np.testing.assert_allclose(found, np.sort(exact)[:5], rtol=1e-6)
+
+
 @pytest.mark.slow
 def test_without_waves_across_a_section_of_finite_width_is_the_plane() -> None:
     body = {"kind": "float", "shape": "rectangle", "half_width": 0.5, "half_height": 0.4, "position": 1.2}

@@ -238,3 +238,10 @@ def test_a_volume_of_too_many_cells_is_told_before_it_is_meshed() -> None:
     scene = LevelTankScene(tank={"radius": 9281.0, "model": "volume"}, liquid=two)
     told = "\n".join(line for section in check_level_tank(scene) for line in section.lines)
     assert "cannot be meshed: about 1e+07 tetrahedra would be needed, and 3e+06 can be made" in told
+
+
+def test_a_liquid_much_thinner_than_the_cells_is_refused_before_gmsh_begins() -> None:
+    two = ({"density": 1000.0, "depth": 1e-9}, {"density": 800.0, "depth": 2.0})
+    scene = LevelTankScene(tank={"length": 10.0, "width": 6.0, "model": "volume"}, liquid=two)
+    told = "\n".join(line for section in check_level_tank(scene) for line in section.lines)
+    assert "so thin that its cells would be flat" in told

@@ -136,13 +136,17 @@ def moving_piece(tank: LevelTank, length: float, index: int | None) -> LevelPiec
     )
 
 
-def expected_eigenvalue(tank: LevelTank, separation: Separation, count: int) -> float:
-    """Return about the λ of the highest of some modes: that of open water with as many, by Weyl's law A k²/4π."""
-    area = separation.factor(0) * (
-        0.5 * (separation.end**2 - separation.start**2) if separation.round else separation.end
-    )
-    doubled = 2.0 if separation.round else 1.0
-    wavenumber = sqrt(4.0 * pi * doubled * (count + 2) / area)
+def expected_eigenvalue(tank: LevelTank, count: int, *, multiplicity: int = 1) -> float:
+    """Return about the λ of the highest of some modes: that of open water with as many, by Weyl's law A k²/4π, or in a
+    narrow tank of waves along it alone, kL/π.
+
+    Args:
+        tank: the dimensionless tank.
+        count: number of modes.
+        multiplicity: how many of the waves are one of the modes.
+    """
+    waves, area, unit = multiplicity * (count + 2), tank.plan.area, tank.plan.unit
+    wavenumber = min(sqrt(4.0 * pi * waves / area), pi * waves / max(unit, area / unit))
     return wavenumber * tanh(wavenumber * tank.depth)
 
 

@@ -87,7 +87,7 @@ def solve_level_tank(
             finer = replace(finer, sizes=sizes, shapes=tuple(map(max, finer.shapes, fitting.shapes)))
         return finer
 
-    expected = expected_eigenvalue(tank, separation, modes)
+    expected = expected_eigenvalue(tank, modes, multiplicity=separation.multiplicity(1))
     exponent = 0.5 if tank.top == "pressure_release" and tank.plates else 1.0
     found = adaptive_solve(
         line_resolution(tank, separation, aim, expected, exponent=exponent),

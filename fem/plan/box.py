@@ -9,10 +9,11 @@ from itertools import product
 import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
-from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution, expected_eigenvalue
+from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.released import ReleasedProblem

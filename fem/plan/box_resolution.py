@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
-from math import ceil, log10, pi, sqrt, tanh
+from math import ceil, log10
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,12 +90,6 @@ def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, rele
         layers=min(max(ceil(digits / 1.4 - 1.9), 1), MOST_LAYERS - 2),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance),
     )
-
-
-def expected_eigenvalue(tank: LevelTank, count: int) -> float:
-    """Return about the λ of the highest of some modes: that of open water with as many, by Weyl's law A k²/4π."""
-    wavenumber = sqrt(4.0 * pi * (count + 2) / tank.plan.area)
-    return wavenumber * tanh(wavenumber * tank.depth)
 
 
 def water_wavenumber(tank: LevelTank, eigenvalue: float) -> float:

@@ -12,9 +12,10 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
+from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
 from hydroelastic.fem.plan.plan_pencil import (

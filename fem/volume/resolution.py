@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
+from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
+from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
 from hydroelastic.meshes.plan_loops import Mirrors

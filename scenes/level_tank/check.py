@@ -134,7 +134,8 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
         yield from _size_of_plan(scaled, asked.tolerance, asked.modes)
         return
     tolerance = workable(asked.tolerance)
-    resolution = line_resolution(scaled, separation, tolerance, expected_eigenvalue(scaled, separation, asked.modes))
+    highest = expected_eigenvalue(scaled, asked.modes, multiplicity=separation.multiplicity(1))
+    resolution = line_resolution(scaled, separation, tolerance, highest)
     elements = len(line_nodes(separation, resolution, scaled.depth)) - 1
     along = "r, cos nθ and sin nθ about the axis" if separation.round else "x, cos nπy/B across"
     yield f"Upright tank with a level bed: one problem for each order n along {along}, exact in depth; no volume mesh."
@@ -151,7 +152,7 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
 
 def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
     from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
-    from hydroelastic.fem.plan.box_resolution import box_resolution, expected_eigenvalue
+    from hydroelastic.fem.plan.box_resolution import box_resolution
     from hydroelastic.fem.plan.plan import plan_resolution
 
     model = level_model(tank)

@@ -36,8 +36,11 @@ def is_round_tank(document: dict[str, Any]) -> bool:
     if not all(isinstance(one, dict) and _is_on_axis(one, is_shaped=is_shaped) for one in bodies):
         return False
     has_float = any(one["kind"] == "float" for one in bodies)
-    liquids = document.get("liquid", [])
-    return has_float or is_shaped or (isinstance(liquids, list) and len(liquids) > 1)
+    return has_float or is_shaped or _are_two(document.get("liquid"))
+
+
+def _are_two(liquids: Any) -> bool:
+    return isinstance(liquids, list) and len(liquids) > 1
 
 
 def _is_on_axis(body: dict[str, Any], *, is_shaped: bool) -> bool:
@@ -49,7 +52,8 @@ def _is_on_axis(body: dict[str, Any], *, is_shaped: bool) -> bool:
 def is_canal(document: dict[str, Any]) -> bool:
     """Return whether a document of the kind "tank" is of one section over a finite width.
 
-    It has a length and a width, and floats with the shape of a section or an outline of its bed.
+    It has a length and a width, no bodies but floats with the shape of a section, and one of these, an outline of its
+    bed or two liquids.
     """
     tank, bodies = document.get("tank"), document.get("body", [])
     if not isinstance(tank, dict) or not {"length", "width"} <= tank.keys() or not isinstance(bodies, list):
@@ -59,6 +63,6 @@ def is_canal(document: dict[str, Any]) -> bool:
     ]
     return (
         all(of_sections)
-        and (bool(of_sections) or "outline" in tank)
+        and (bool(of_sections) or "outline" in tank or _are_two(document.get("liquid")))
         and not ({"bed", "model"} & tank.keys() or {"column", "baffle"} & document.keys())
     )

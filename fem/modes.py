@@ -381,16 +381,8 @@ def completed_mode(
     eigenvector: PETSc.Vec,
     known: PETSc.Vec | None = None,
 ) -> Mode:
-    """Complete an eigenvector by rigid motions and ψ, and compute its residual (collective).
-
-    Args:
-        pencil: the coupled problem.
-        kinetics: of it.
-        solver: a factorization of K.
-        eigenvalue: λ.
-        eigenvector: at unit generalized mass.
-        known: its ψ without rigid motions, which Laplace's equation is solved for otherwise; it is changed.
-    """
+    """Complete an eigenvector of unit generalized mass by rigid motions and ψ, and compute its residual by a
+    factorization of K; its ψ without rigid motions, if it is known, is changed (collective)."""
     displacement, force = eigenvector.copy(), eigenvector.duplicate()
     potential = pencil.coupling.createVecLeft() if known is None else known
     kinetics.recover(displacement, potential, known=known is not None)

@@ -9,6 +9,7 @@ the same frequency are found like others, where both are among the approximate o
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 import numpy as np
 from petsc4py import PETSc
@@ -171,12 +172,12 @@ def _as_modes(basis: _Basis, values: np.ndarray, columns: np.ndarray, before: in
 def residual_bounds(values: np.ndarray, residuals: np.ndarray) -> np.ndarray:
     """Bound the relative errors of the largest eigenvalues μ by the residuals of Ritz pairs.
 
-    Of the first j Ritz values θ, where the residuals' norm is R = √(Σr²), and θ_{j+1} the largest in what is beyond,
+    Of some neighbouring Ritz values, where the residuals' norm is R = √(Σr²), and θ⁺, θ⁻ those next above and below,
 
-        0 ≤ μ_i − θ_i ≤ R²/(θ_i − θ_{j+1})        (R. Mathias, SIAM J. Matrix Anal. Appl. 19 (1998) 541)
+        |μ_i − θ_i| ≤ R²/min(θ⁺ − θ_i, θ_i − θ⁻)        (R. Mathias, SIAM J. Matrix Anal. Appl. 19 (1998) 541)
 
-    and r_i is a bound of some eigenvalue in any case. The smallest of these for j ≥ i is returned. That no other
-    eigenvalue is between those found is for a count of them to confirm.
+    and r_i is a bound of some eigenvalue in any case. The smallest of these is returned. That no other eigenvalue is
+    between those found is for a count of them to confirm.
 
     Args:
         values: θ, descending, shape (modes,).
@@ -185,10 +186,13 @@ def residual_bounds(values: np.ndarray, residuals: np.ndarray) -> np.ndarray:
     Returns:
         Relative bounds, shape (modes,).
     """
-    together = np.cumsum(residuals**2)[:-1]
-    gaps = values[:, None] - values[None, 1:]
-    later = np.arange(len(values))[:, None] <= np.arange(len(values) - 1)[None, :]
-    with np.errstate(divide="ignore"):
-        quadratic = np.where((gaps > 0.0) & later, together / np.where(gaps > 0.0, gaps, 1.0), np.inf)
-    bounds: np.ndarray = np.minimum(residuals, quadratic.min(axis=1, initial=np.inf)) / values
-    return bounds
+    count, squares = len(values), residuals**2
+    above, below = np.append(np.inf, values), np.append(values[1:], 0.0)
+    bounds = residuals.copy()
+    for place, value in enumerate(values):
+        for first, last in product(range(place + 1), range(place, count - 1)):
+            gap = min(above[first] - value, value - below[last])
+            if gap > 0.0:
+                bounds[place] = min(bounds[place], squares[first : last + 1].sum() / gap)
+    relative: np.ndarray = bounds / values
+    return relative

@@ -24,7 +24,7 @@ from hydroelastic.fem.volume.pencil import SolverOf
 
 # Residual of modes over the root of the tolerance: it enters frequencies squared, over the gap to the modes beyond, and
 # shapes are then more accurate than those of a mesh that keeps the tolerance.
-_RESIDUAL = 0.1
+_RESIDUAL, _LARGEST_RESIDUAL = 0.1, 3e-3
 # Tolerance of the coarser space's modes: its own error is larger.
 _COARSE = 1e-1
 
@@ -75,7 +75,7 @@ def volume_modes(
     """
     coarser = replace(model, resolution=replace(model.resolution, degree=model.resolution.degree // 2))
     coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils}, products)
-    residual = _RESIDUAL * tolerance**0.5
+    residual = min(_RESIDUAL * tolerance**0.5, _LARGEST_RESIDUAL)
 
     def solve(parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
         lower = coarse.pencils[parity]

@@ -160,7 +160,7 @@ def _solve(
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
         layered = bool(resolution.sizes.layers)
-        require_memory(size, resolution.degree, processes, factorized=layered)
+        require_memory(size, resolution.degree, count, processes, factorized=layered)
         solver_of = partial(direct_or_multigrid, tolerance=tolerance)
         # Multigrid would hardly converge on layers.
         pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
@@ -238,13 +238,13 @@ def _solve(
     ).solution
 
 
-def require_memory(unknowns: int, degree: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
+def require_memory(unknowns: int, degree: int, modes: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
     """Refuse a problem that does not fit into the memory of the first process's computer (collective).
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
-    needed, free = memory_needed(unknowns, degree, factorized=factorized), comm.bcast(free_memory())
+    needed, free = memory_needed(unknowns, degree, modes, factorized=factorized), comm.bcast(free_memory())
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

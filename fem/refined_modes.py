@@ -1,9 +1,9 @@
 """Modes from approximate ones, by Rayleigh–Ritz's method on them and on what their residuals add.
 
 With approximate eigenvectors as the first vectors v of a basis, orthonormal in K, each step takes the Ritz pairs
-(θ, x) of M_c x = μ K x in it, and adds the residuals K⁻¹M_c x − θ x of those that have not converged. A product with M_c
-is one solution of Laplace's equation; ψ of it is kept, and ψ of a mode is a combination of those of the basis. Modes of
-the same frequency are found like others, where both are among the approximate ones.
+(θ, x) of M_c x = μ K x in it, and adds the residuals K⁻¹M_c x − θ x of those that have not converged. A product with
+M_c is one solution of Laplace's equation; ψ of it is kept, and ψ of a mode is a combination of those of the basis.
+Modes of the same frequency are found like others, where both are among the approximate ones.
 """
 
 from __future__ import annotations

@@ -142,9 +142,7 @@ def solve_classes(
 
     def solve_class(_parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
         # The error of λ is that of the residual squared.
-        return solve_modes(
-            pencil, share, shapes=0, tolerance=max(OF_RESIDUALS * tolerance, 1e-12), products=products
-        )
+        return solve_modes(pencil, share, shapes=0, tolerance=max(OF_RESIDUALS * tolerance, 1e-12), products=products)
 
     solve = solve or solve_class
     if not pencils:

@@ -83,9 +83,7 @@ def volume_modes(
         given = coarse.displacements(parity, share)
         if len(given) < share:
             return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance, products=products)
-        found = refined_modes(
-            pencil, _prolonged(lower, pencil, given), residual, products, beyond=len(pencils) > 1
-        )
+        found = refined_modes(pencil, _prolonged(lower, pencil, given), residual, products, beyond=len(pencils) > 1)
         # Solutions in the coarser space by what they cost.
         cheaper = (lower.solver.solves - before + coarse.found[parity].solves) * lower.liquid.size / pencil.liquid.size
         return replace(found, solves=found.solves + ceil(cheaper))
@@ -109,9 +107,7 @@ def _prolonged(
         made, first, start = upper.stiffness.createVecRight(), bodies, bodies
         made.array[:bodies] = given.array_r[:bodies]
         for surface in upper.surfaces:
-            places, finer = (
-                one.liquid.surface_dofs((surface.surface,), surface.below) for one in (lower, upper)
-            )
+            places, finer = (one.liquid.surface_dofs((surface.surface,), surface.below) for one in (lower, upper))
             coarse.set(0.0)
             coarse.array[places] = given.array_r[first : first + len(places)]
             matrix.mult(coarse, fine)

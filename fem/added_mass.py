@@ -130,7 +130,7 @@ class CondensedKinetics:
         return columns
 
     def _keep(self) -> None:
-        if self._keeps:
+        if self._keeps and self._potential is not None:
             self.potentials.append(self._potential.copy())
 
     def _dense_block(self) -> np.ndarray:

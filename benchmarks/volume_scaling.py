@@ -14,6 +14,7 @@ the others.
 from __future__ import annotations
 
 import csv
+import gc
 import json
 import subprocess
 import sys
@@ -28,6 +29,7 @@ import ufl
 from dolfinx import fem, la
 from dolfinx.mesh import create_box, locate_entities_boundary, meshtags
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from hydroelastic.benchmarks.peers import peer_folder
 from hydroelastic.fem.kernels import compiled_form
@@ -112,7 +114,12 @@ def measured(
     whole, error = memory.peak / 2**30 / liquid.size * 1e6, abs(load.dot(potential) / EXACT_ENERGY - 1.0)
     largest = largest_memory() / 2**30
     values = (comm.size, degree, liquid.size, error, solver.iterations, *np.diff(times), whole, largest)
-    return dict(zip(COLUMNS, values, strict=True))
+    own, row = tank.mesh.comm, dict(zip(COLUMNS, values, strict=True))
+    del solver, load, potential, laplace
+    gc.collect()
+    # On several processes PETSc keeps matrices until all of them let go: they would count in the next size.
+    PETSc.garbage_cleanup(own)
+    return row
 
 
 def _wave_load(liquid: LiquidSpace) -> np.ndarray:

@@ -87,9 +87,16 @@ class CondensedKinetics:
     smallest one.
     """
 
-    def __init__(self, pencil: CoupledPencil) -> None:
-        """Solve for the potential of each condensed motion (collective)."""
+    def __init__(self, pencil: CoupledPencil, *, keeps: bool = False) -> None:
+        """Solve for the potential of each condensed motion (collective).
+
+        Args:
+            pencil: the coupled problem.
+            keeps: whether ψ of every product is kept in `potentials`.
+        """
         self.pencil = pencil
+        self.potentials: list[PETSc.Vec] = []
+        self._keeps = keeps
         self.free_rigid = pencil.free_rigid
         self.definite_stiffness = _definite(pencil)
         # A known answer of the liquid gives the momentum without it.
@@ -118,7 +125,13 @@ class CondensedKinetics:
             column = self._momentum.duplicate()
             kinetic(self.pencil, self._projected, column, self._potential)
             columns.append(column)
+            self._keep()
+        self._of_rigid, self.potentials = self.potentials, []
         return columns
+
+    def _keep(self) -> None:
+        if self._keeps and self._potential is not None:
+            self.potentials.append(self._potential.copy())
 
     def _dense_block(self) -> np.ndarray:
         size, rigid = len(self._columns), len(self.free_rigid)
@@ -164,6 +177,7 @@ class CondensedKinetics:
         displacement.copy(self._projected)
         self._project(self._projected)
         kinetic(self.pencil, self._projected, result, self._potential)
+        self._keep()
         for column, factor in zip(self._columns, self._follow(self._projected), strict=True):
             result.axpy(-factor, column)
         set_entries(result, self.free_rigid, np.zeros(len(self.free_rigid)))
@@ -183,18 +197,25 @@ class CondensedKinetics:
             values = self.pencil.body_values(vector)
             set_entries(vector, self.pencil.unstable, -values[self.pencil.unstable])
 
-    def recover(self, displacement: PETSc.Vec, potential: PETSc.Vec) -> None:
+    def recover(self, displacement: PETSc.Vec, potential: PETSc.Vec, *, known: bool = False) -> None:
         """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constants.
 
         Args:
             displacement: e on entry, ζ on return.
             potential: ψ on return.
+            known: whether ``potential`` is that of e on entry, a combination of those kept; Laplace's equation is then
+                not solved.
         """
         self._project(displacement)
         follow = -self._follow(displacement)
         rigid = len(self.free_rigid)
         set_entries(displacement, self.free_rigid, follow[:rigid])
-        kinetic(self.pencil, displacement, self._momentum, potential)
+        if known:
+            potential.maxpy(list(map(float, follow[:rigid])), self._of_rigid)
+            self.pencil.momentum.multTranspose(potential, self._momentum)
+            self.pencil.mass.multAdd(displacement, self._momentum, self._momentum)
+        else:
+            kinetic(self.pencil, displacement, self._momentum, potential)
         held = [-correction.dot(self._momentum) for correction in self._corrections]
         pressures = self._turn @ np.array([*follow[rigid:], *held])
         layer_of = self.pencil.liquid.owned_layer_of

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.pencil import CoupledPencil
 
-if TYPE_CHECKING:
-    from slepc4py import SLEPc
-
 
 def residual_of(
     pencil: CoupledPencil,
-    solver: SLEPc.EPS,
+    solver: PETSc.KSP,
     eigenvalue: float,
     displacement: PETSc.Vec,
     potential: PETSc.Vec,
@@ -26,7 +22,7 @@ def residual_of(
 
     Args:
         pencil: the coupled problem.
-        solver: whose spectral transformation has factorized K.
+        solver: a factorization of K.
         eigenvalue: λ.
         displacement: ζ.
         potential: ψ.
@@ -37,7 +33,7 @@ def residual_of(
     residual.axpy(-eigenvalue, image)
     pencil.mass.mult(displacement, image)
     residual.axpy(-eigenvalue, image)
-    solver.getST().getKSP().solve(residual, image)
+    solver.solve(residual, image)
     return float(np.sqrt(abs(residual.dot(image) / force.dot(displacement))))
 
 

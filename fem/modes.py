@@ -82,6 +82,7 @@ class ModeSet:
         solves: solutions of Laplace's equation; those of a known answer are counted too.
         projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
+        bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
     """
 
     eigenvalues: np.ndarray
@@ -95,6 +96,7 @@ class ModeSet:
     growing: tuple[Mode, ...] = ()
     projection: np.ndarray | None = None
     eigenvectors: tuple[PETSc.Vec, ...] = ()
+    bounds: np.ndarray | None = None
 
 
 Products = Callable[[Operator], Operator]
@@ -166,7 +168,9 @@ def solve_modes(
         amplitudes.append(pencil.body_values(displacement))
 
     def completed(place: int) -> Mode:
-        return _complete(pencil, kinetics, solver, float(eigenvalues[place]), displacements[place])
+        return completed_mode(
+            pencil, kinetics, solver.getST().getKSP(), float(eigenvalues[place]), displacements[place]
+        )
 
     return ModeSet(
         eigenvalues=eigenvalues,
@@ -308,7 +312,7 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
         pencil.stiffness.mult(displacement, force)
         eigenvalue = float(1.0 / inverses[number])
         displacement.scale(np.sqrt(eigenvalue / displacement.dot(force)))
-        modes.append(_complete(pencil, kinetics, solver, eigenvalue, displacement))
+        modes.append(completed_mode(pencil, kinetics, solver.getST().getKSP(), eigenvalue, displacement))
     return tuple(modes)
 
 
@@ -369,13 +373,19 @@ class _Turned:
         self._kinetics.flip_unstable(result)
 
 
-def _complete(
-    pencil: CoupledPencil, kinetics: CondensedKinetics, solver: SLEPc.EPS, eigenvalue: float, eigenvector: PETSc.Vec
+def completed_mode(
+    pencil: CoupledPencil,
+    kinetics: CondensedKinetics,
+    solver: PETSc.KSP,
+    eigenvalue: float,
+    eigenvector: PETSc.Vec,
+    known: PETSc.Vec | None = None,
 ) -> Mode:
-    """Complete an eigenvector by rigid motions and ψ, and compute its residual."""
+    """Complete an eigenvector of unit generalized mass by rigid motions and ψ, and compute its residual by a
+    factorization of K; its ψ without rigid motions, if it is known, is changed (collective)."""
     displacement, force = eigenvector.copy(), eigenvector.duplicate()
-    potential = pencil.coupling.createVecLeft()
-    kinetics.recover(displacement, potential)
+    potential = pencil.coupling.createVecLeft() if known is None else known
+    kinetics.recover(displacement, potential, known=known is not None)
     pencil.stiffness.mult(displacement, force)
     return Mode(
         eigenvalue=eigenvalue,

@@ -8,6 +8,8 @@ from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.modes import ModeSet, Products, as_made, converged_inverses, krylov_schur
 from hydroelastic.fem.pencil import CoupledPencil
 
+# Of the Krylov space, and the part of it that is kept: it grows by a product or two at a time, so that none is in vain.
+_VECTORS, _KEPT = 8, 0.9
 # Of the random vector; SLEPc begins with another one.
 _SEED = 2
 
@@ -33,6 +35,8 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, produ
     if found >= pencil.size - len(pencil.constraints) - pencil.zero_mode_count:
         return np.inf
     solver = krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
+    solver.setDimensions(1, min(_VECTORS, pencil.size))
+    solver.setKrylovSchurRestart(_KEPT)
     solver.setDeflationSpace(list(modes.eigenvectors))
     start = pencil.stiffness.createVecRight()
     start.array[:] = np.random.default_rng([_SEED, start.comm.rank]).standard_normal(start.local_size)

@@ -132,7 +132,7 @@ def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
         points = mesh.points.copy()
         points[mesh.cells[folded]] = corners @ mesh.points[mesh.cells[folded, :4]]
         mesh = replace(mesh, points=points)
-    raise FoldedError("a cell at a curved wall is inverted: ask for smaller cells")
+    raise FoldedError("a cell at a curved wall is inverted: ask for a smaller tolerance, or leave a wider gap")
 
 
 def smallest_jacobians(mesh: NodedMesh) -> NDArray[np.float64]:

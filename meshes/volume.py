@@ -20,6 +20,7 @@ from hydroelastic.meshes.edge_layers import with_edge_layers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.narrow_gaps import GROWTH, narrow_gaps
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
@@ -319,6 +320,13 @@ def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
     """Cells grow from singular edges, and follow curved walls."""
     mesh = gmsh.model.mesh
     around = [pi * min(solid.size) / sizes.around for solid in tank.floats if solid.shape != "box"]
+    gaps = [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
+    around += [2.0 * pi * one.radius / sizes.around for one in tank.columns if isinstance(one, Disc)]
+    around += [size for _, size in gaps]
+    fields = []
+    for (x, y), size in gaps:
+        fields.append(mesh.field.add("MathEval"))
+        mesh.field.setString(fields[-1], "F", f"{size} + {GROWTH} * sqrt((x - ({x}))^2 + (y - ({y}))^2)")
     if edges and sizes.edge < sizes.bulk:
         near = mesh.field.add("Distance")
         mesh.field.setNumbers(near, "CurvesList", sorted(edges))
@@ -329,7 +337,11 @@ def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
         mesh.field.setNumber(growing, "SizeMax", sizes.bulk)
         mesh.field.setNumber(growing, "DistMin", 0.0)
         mesh.field.setNumber(growing, "DistMax", (sizes.bulk - sizes.edge) / _GROWTH)
-        mesh.field.setAsBackgroundMesh(growing)
+        fields.append(growing)
+    if fields:
+        smallest = mesh.field.add("Min")
+        mesh.field.setNumbers(smallest, "FieldsList", fields)
+        mesh.field.setAsBackgroundMesh(smallest)
     for option, value in {
         "MeshSizeMax": sizes.bulk,
         # Curvature is unbounded at the tip of a cone.

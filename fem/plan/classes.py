@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -17,10 +16,11 @@ from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.physics.arrays import FloatArray
 
-# Of the tolerance, the residual to which modes are solved.
-_OF_RESIDUALS = 1e-3
-# Residual of the modes that a second start finds, which enters their λ squared.
-_OF_SECOND_START = 1e-3
+OF_RESIDUALS = 1e-3
+"""Of the tolerance, the residual to which modes are solved."""
+
+# Relative residual of what a second start finds: an eigenvalue is as near.
+_OF_SECOND_START = 1e-2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,14 +103,31 @@ class ClassModes:
     eigenvalues: np.ndarray
     origins: tuple[tuple[int, int], ...]
 
+    @property
+    def bounds(self) -> FloatArray:
+        """Of the relative error of each λ by the eigen-solver, zero where it is rounding, shape (modes,)."""
+        found = (self.classes[number].modes.bounds for number, _ in self.origins)
+        places = (place for _, place in self.origins)
+        return np.array([0.0 if one is None else one[place] for one, place in zip(found, places, strict=True)])
+
     def completed(self, index: int) -> Mode:
         """Return a mode with its shape, at unit generalized mass."""
         number, place = self.origins[index]
         return self.classes[number].modes.completed(place)
 
 
+ClassSolver = Callable[[ClassParity, CoupledPencil, int], ModeSet]
+"""Returns some of the lowest modes of a class."""
+
+
 def solve_classes(
-    pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float, products: Products = as_made
+    pencils: dict[ClassParity, CoupledPencil],
+    count: int,
+    tolerance: float,
+    products: Products = as_made,
+    *,
+    solve: ClassSolver | None = None,
+    shares: dict[ClassParity, int] | None = None,
 ) -> ClassModes:
     """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
 
@@ -119,30 +136,38 @@ def solve_classes(
         count: number of modes; fewer are returned if the model has fewer.
         tolerance: largest relative error of frequencies that is accepted.
         products: of the operators; see `solve_modes`.
+        solve: finds modes of a class; by default `solve_modes`.
+        shares: about the number of modes of each class; as many of each by default.
     """
-    # The error of λ is that of the residual squared.
-    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12), products=products)
+
+    def solve_class(_parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
+        # The error of λ is that of the residual squared.
+        return solve_modes(pencil, share, shapes=0, tolerance=max(OF_RESIDUALS * tolerance, 1e-12), products=products)
+
+    solve = solve or solve_class
     if not pencils:
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
-    share = count if len(pencils) == 1 else count // len(pencils) + 2
+    alike = count if len(pencils) == 1 else count // len(pencils) + 2
+    asked = [alike if shares is None else shares[parity] for parity in pencils]
     classes = [
-        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share)) for parity, pencil in pencils.items()
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve(parity, pencil, share))
+        for (parity, pencil), share in zip(pencils.items(), asked, strict=True)
     ]
-    shares = [share] * len(classes)
     while True:
         limit = min((float(one.modes.eigenvalues[0]) for one in classes if len(one.modes.eigenvalues)), default=np.inf)
         limit /= HIDDEN
         # A class that gives fewer than requested has no more above rounding.
         reached = [
             min(one.modes.eigenvalues[-1], limit) if len(one.modes.eigenvalues) == share else limit
-            for one, share in zip(classes, shares, strict=True)
+            for one, share in zip(classes, asked, strict=True)
         ]
         complete = sum(int(np.sum(one.modes.eigenvalues <= min(reached))) for one in classes)
         if complete >= count or min(reached) >= limit:
             break
         short = int(np.argmin(reached))
-        shares[short] += max(4, count - complete)
-        classes[short] = replace(classes[short], modes=solve(classes[short].pencil, shares[short]))
+        asked[short] += max(4, count - complete)
+        one = classes[short]
+        classes[short] = replace(one, modes=solve(one.parity, one.pencil, asked[short]))
     ordered = sorted(
         (float(value), number, place)
         for number, one in enumerate(classes)
@@ -190,7 +215,10 @@ def no_mode_is_beyond(solution: ClassModes, products: Products = as_made) -> boo
     Each eigenvalue found has another one within its residual, so that none is too many.
     """
     shift = shift_above(solution.eigenvalues)
-    return all(lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, products) > shift for one in solution.classes)
+    return all(
+        lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, products) > (1.0 + _OF_SECOND_START) * shift
+        for one in solution.classes
+    )
 
 
 def merged_errors(

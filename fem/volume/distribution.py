@@ -87,7 +87,7 @@ def _shaped(tank: VolumeTank, mesh: Mesh, volume: float) -> tuple[float, float]:
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         own = _of_process(mesh)
     if mesh.comm.allreduce(smallest_jacobians(own).min(initial=1.0), op=MPI.MIN) <= 0.0:
-        raise FoldedError("a cell at a curved wall is inverted: ask for smaller cells")
+        raise FoldedError("a cell at a curved wall is inverted: ask for a smaller tolerance, or leave a wider gap")
     return volume, mesh.comm.allreduce(mesh_volume(own))
 
 

@@ -11,14 +11,17 @@ DIRECT_UNKNOWNS = 120_000
 # Bytes, measured: of a factorization of N unknowns over N^(4/3), of multigrid over N of degree 2 and of higher ones.
 _OF_FACTORS = 200.0
 _OF_MULTIGRID = {2: 2_000.0, 4: 3_000.0}
+# Potentials for each mode: those of products, kept until all modes are found, and its own; measured.
+_POTENTIALS = 4.5
 _MEMORY = Path("/proc/meminfo")
 
 
-def memory_needed(unknowns: int, degree: int, *, factorized: bool = False) -> float:
+def memory_needed(unknowns: int, degree: int, modes: int, *, factorized: bool = False) -> float:
     """Return about the bytes that a problem needs on all processes together, where it is factorized at any size say."""
+    potentials = _POTENTIALS * 8.0 * modes * unknowns
     if factorized or unknowns <= DIRECT_UNKNOWNS:
-        return _OF_FACTORS * float(unknowns) ** (4.0 / 3.0)
-    return _OF_MULTIGRID[2 if degree <= 2 else 4] * unknowns
+        return _OF_FACTORS * float(unknowns) ** (4.0 / 3.0) + potentials
+    return _OF_MULTIGRID[2 if degree <= 2 else 4] * unknowns + potentials
 
 
 def free_memory() -> float | None:

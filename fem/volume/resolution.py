@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import ceil, log, pi
 from typing import Any
 
@@ -60,26 +60,23 @@ class VolumeErrors:
         waves: by that in all other cells.
         geometry: by curved walls.
         plates: by the polynomials of the plates.
+        iteration: by the eigen-solver.
     """
 
     edges: NDArray[np.float64]
     waves: NDArray[np.float64]
     geometry: NDArray[np.float64]
     plates: NDArray[np.float64]
+    iteration: NDArray[np.float64]
 
     @property
     def total(self) -> NDArray[np.float64]:
         """Their sum."""
-        return self.edges + self.waves + self.geometry + self.plates
+        return self.edges + self.waves + self.geometry + self.plates + self.iteration
 
     def first(self, count: int) -> VolumeErrors:
         """Return those of the first modes."""
-        return VolumeErrors(
-            edges=self.edges[:count],
-            waves=self.waves[:count],
-            geometry=self.geometry[:count],
-            plates=self.plates[:count],
-        )
+        return VolumeErrors(**{one.name: getattr(self, one.name)[:count] for one in fields(self)})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,6 +32,7 @@ from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
+from hydroelastic.fem.volume.eigenmodes import volume_modes
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
@@ -58,6 +59,8 @@ _AT_EDGES = 4.0
 _ROUNDING = 1e-11
 # Of the asked tolerance, that of Laplace's equation by iteration; measured: 1e-9 changes frequencies by 1e-11.
 _INNER = 1e-2
+# Tolerance for which Laplace's equation is solved in the coarser space that modes are sought in first.
+_COARSE = 1e-4
 
 
 class TooLargeError(MeshError):
@@ -157,7 +160,7 @@ def _solve(
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
         layered = bool(resolution.sizes.layers)
-        require_memory(size, resolution.degree, processes, factorized=layered)
+        require_memory(size, resolution.degree, count, processes, factorized=layered)
         solver_of = partial(direct_or_multigrid, tolerance=tolerance)
         # Multigrid would hardly converge on layers.
         pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
@@ -166,7 +169,30 @@ def _solve(
             norms = [f"{part.norm():.9e}" for one in pencils.values() for part in (one.laplace, one.coupling, one.mass)]
             unfinished.begin({"attempt": attempt, "resolution": asdict(resolution), "norms": norms})
             products = unfinished.of
-        modes = solve_classes(pencils, count + 1, tolerance, products)
+        # Motions that grow have no second start, and are of small tanks.
+        growing = any(len(one.unstable) for one in pencils.values())
+        coarser = replace(model, resolution=resolution.coarser)
+        by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
+
+        def is_counted(found: ClassModes) -> bool:
+            if not by_inertia:
+                return no_mode_is_beyond(found, products)
+            return count_is_confirmed(found, lambda parity: coarser.pencil(parity, _no_solver), repeated=True)
+
+        def found_by_one_start() -> ClassModes:
+            return solve_classes(pencils, count + 1, tolerance, products)
+
+        if growing:
+            modes = found_by_one_start()
+            counted = is_counted(modes)
+        else:
+            coarse_solver = partial(solver_of, tolerance=_COARSE, largest=maxsize if layered else DIRECT_UNKNOWNS)
+            modes = volume_modes(model, pencils, count + 1, tolerance, solver_of=coarse_solver, products=products)
+            counted = is_counted(modes)
+            if not counted:
+                # One that the coarser space does not have.
+                modes = found_by_one_start()
+                counted = is_counted(modes)
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
             edges, waves = _liquid_errors(one, model, some)
@@ -181,21 +207,18 @@ def _solve(
             return np.array([model.images * edges, model.images * waves, plates])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)
-        coarser = replace(model, resolution=resolution.coarser)
-        # Motions that grow have no second start, and are of small tanks.
-        growing = any(len(one.pencil.unstable) for one in modes.classes)
-        by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
-        counted = (
-            count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver), repeated=True)
-            if by_inertia
-            else no_mode_is_beyond(modes, products)
-        )
         solvers = [one.pencil.solver for one in modes.classes]
         iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
         return VolumeSolution(
             model=model,
             modes=modes,
-            errors=VolumeErrors(edges=edges, waves=waves, geometry=np.full(len(edges), geometry), plates=plates),
+            errors=VolumeErrors(
+                edges=edges,
+                waves=waves,
+                geometry=np.full(len(edges), geometry),
+                plates=plates,
+                iteration=0.5 * modes.bounds,
+            ),
             counted=counted,
             count_method=BY_INERTIA if by_inertia else "residuals, and a second start vector",
             attempts=attempt,
@@ -215,13 +238,13 @@ def _solve(
     ).solution
 
 
-def require_memory(unknowns: int, degree: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
+def require_memory(unknowns: int, degree: int, modes: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
     """Refuse a problem that does not fit into the memory of the first process's computer (collective).
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
-    needed, free = memory_needed(unknowns, degree, factorized=factorized), comm.bcast(free_memory())
+    needed, free = memory_needed(unknowns, degree, modes, factorized=factorized), comm.bcast(free_memory())
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

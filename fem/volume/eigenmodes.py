@@ -1,0 +1,117 @@
+"""Modes of a volume from those of a coarser space on the same mesh, of half the degree.
+
+The coarser space has about an eighth of the unknowns. Its modes tell how many each symmetry has among the lowest ones,
+and are the first approximation of those of the finer space, double ones included.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import ceil
+
+import numpy as np
+from dolfinx.fem import petsc as fem_petsc
+from petsc4py import PETSc
+
+from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.modes import EigenSolverError, ModeSet, Products, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
+from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.refined_modes import refined_modes
+from hydroelastic.fem.volume.model import VolumeModel
+from hydroelastic.fem.volume.pencil import SolverOf
+
+# Residual of modes over the root of the tolerance: it enters frequencies squared, over the gap to the modes beyond, and
+# shapes are then more accurate than those of a mesh that keeps the tolerance.
+_RESIDUAL, _LARGEST_RESIDUAL = 0.1, 3e-3
+# Tolerance of the coarser space's modes: its own error is larger.
+_COARSE = 1e-1
+
+
+@dataclass
+class _CoarserModes:
+    """Modes of the coarser space, by class, more where they are asked for."""
+
+    pencils: dict[ClassParity, CoupledPencil]
+    products: Products
+    found: dict[ClassParity, ModeSet] = field(default_factory=dict)
+
+    def shares(self, count: int) -> dict[ClassParity, int]:
+        """The number of modes of each class among the lowest, and one that shows what is beyond (collective)."""
+        modes = solve_classes(self.pencils, count, _COARSE, self.products)
+        self.found = {one.parity: one.modes for one in modes.classes}
+        own = np.bincount([number for number, _ in modes.origins], minlength=len(modes.classes))
+        beyond = 0 if len(own) == 1 else 1
+        return {one.parity: int(share) + beyond for one, share in zip(modes.classes, own, strict=True)}
+
+    def displacements(self, parity: ClassParity, count: int) -> tuple[PETSc.Vec, ...]:
+        """Those of the lowest modes of a class, fewer if it has fewer (collective)."""
+        if len(self.found[parity].eigenvectors) < count:
+            self.found[parity] = solve_modes(
+                self.pencils[parity], count, shapes=0, tolerance=OF_RESIDUALS * _COARSE, products=self.products
+            )
+        return self.found[parity].eigenvectors[:count]
+
+
+def volume_modes(
+    model: VolumeModel,
+    pencils: dict[ClassParity, CoupledPencil],
+    count: int,
+    tolerance: float,
+    *,
+    solver_of: SolverOf,
+    products: Products,
+) -> ClassModes:
+    """Return the lowest modes of all classes (collective).
+
+    Args:
+        model: the tank in its resolution, of bodies without growing motions.
+        pencils: the problem of each class that has unknowns.
+        count: number of modes; fewer are returned if the model has fewer.
+        tolerance: largest relative error of frequencies that is accepted.
+        solver_of: makes the solver of Laplace's equation in the coarser space.
+        products: of the operators; see `fem.modes.solve_modes`.
+    """
+    coarser = replace(model, resolution=replace(model.resolution, degree=model.resolution.degree // 2))
+    coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils}, products)
+    residual = min(_RESIDUAL * tolerance**0.5, _LARGEST_RESIDUAL)
+
+    def solve(parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
+        lower = coarse.pencils[parity]
+        before = lower.solver.solves
+        given = coarse.displacements(parity, share)
+        if len(given) < share:
+            return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance, products=products)
+        found = refined_modes(pencil, _prolonged(lower, pencil, given), residual, products, beyond=len(pencils) > 1)
+        # Solutions in the coarser space by what they cost.
+        cheaper = (lower.solver.solves - before + coarse.found[parity].solves) * lower.liquid.size / pencil.liquid.size
+        return replace(found, solves=found.solves + ceil(cheaper))
+
+    try:
+        return solve_classes(pencils, count, tolerance, products, solve=solve, shares=coarse.shares(count))
+    except EigenSolverError:
+        return solve_classes(pencils, count, tolerance, products)
+
+
+def _prolonged(
+    lower: CoupledPencil[LiquidSpace], upper: CoupledPencil[LiquidSpace], displacements: tuple[PETSc.Vec, ...]
+) -> list[PETSc.Vec]:
+    """Displacements of the same bodies and surfaces in a finer space (collective)."""
+    matrix = fem_petsc.interpolation_matrix(lower.liquid.space, upper.liquid.space)
+    matrix.assemble()
+    fine, coarse = matrix.createVecs()[::-1]
+    bodies = upper.body_size if upper.stiffness.comm.rank == 0 else 0
+    found = []
+    for given in displacements:
+        made, first, start = upper.stiffness.createVecRight(), bodies, bodies
+        made.array[:bodies] = given.array_r[:bodies]
+        for surface in upper.surfaces:
+            places, finer = (one.liquid.surface_dofs((surface.surface,), surface.below) for one in (lower, upper))
+            coarse.set(0.0)
+            coarse.array[places] = given.array_r[first : first + len(places)]
+            matrix.mult(coarse, fine)
+            made.array[start : start + len(finer)] = fine.array_r[finer]
+            first, start = first + len(places), start + len(finer)
+        found.append(made)
+    return found

@@ -16,7 +16,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid_answer import LiquidAnswer
+from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.liquid_operator import LiquidOperator, LiquidUnknowns, first_dof
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -106,6 +106,11 @@ class CoupledPencil(Generic[Unknowns]):
         return _joined(_block_diagonal([*of_bodies, *of_surfaces]))
 
     @cached_property
+    def dense_restoring(self) -> np.ndarray:
+        """K of the unknowns of the surfaces, on one process, shape (surface unknowns, surface unknowns)."""
+        return dense(_joined(_block_diagonal([*self.restoring]))) if self.restoring else np.empty((0, 0))
+
+    @cached_property
     def body_stiffness(self) -> np.ndarray:
         """Stiffness of the body unknowns, shape (body unknowns,)."""
         return np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
@@ -124,12 +129,12 @@ class CoupledPencil(Generic[Unknowns]):
         """Volumes of the constraints, on one process, shape (constraints, unknowns)."""
         return np.array([one.volume.array_r for one in self.constraints]).reshape(-1, self.size)
 
-    @property
+    @cached_property
     def unstable(self) -> np.ndarray:
         """Indices of the body unknowns of negative stiffness: unstable motions of floats."""
         return np.flatnonzero(self.body_stiffness < 0.0)
 
-    @property
+    @cached_property
     def free_rigid(self) -> np.ndarray:
         """Indices of the body unknowns without stiffness: rigid motions without restoring force."""
         return np.flatnonzero(self.body_stiffness == 0.0)

@@ -63,7 +63,7 @@ class DenseModes:
             self._columns, self.kinetics = map(self._with_bodies, (projection.columns, projection.kinetics))
             self._root = projection.root
             self._volumes = np.hstack([of_bodies, projection.volumes])
-            self.volumes = np.hstack([of_bodies, projection.volumes @ projection.basis])
+            self.volumes = np.hstack([of_bodies, projection.projected_volumes])
 
     def _with_bodies(self, added_mass: np.ndarray) -> np.ndarray:
         """M + M_a with the unknowns of the bodies scaled."""

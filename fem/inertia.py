@@ -6,7 +6,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import configure_indefinite
-from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
+from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
@@ -86,13 +86,17 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
         count = _shared_count(pencil, answer, eigenvalue)
         if count is not None:
             return count
-    stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + answer.added_mass)
+    block, bodies = -eigenvalue * answer.added_mass, pencil.body_size
+    block[:bodies, :bodies] -= eigenvalue * pencil.body_mass
     # Scaled so that stiff shapes and small elements weigh alike.
-    scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
+    stiffness = np.concatenate([pencil.body_stiffness, np.diag(pencil.dense_restoring)])
+    scale = 1.0 / np.sqrt(np.abs(stiffness) - np.diag(block))
+    block[np.diag_indices(bodies)] += pencil.body_stiffness
+    block[bodies:, bodies:] += pencil.dense_restoring
     volumes = pencil.volumes * scale
     volumes /= np.linalg.norm(volumes, axis=1, keepdims=True)
     corner = np.zeros((len(volumes), len(volumes)))
-    block = scale[:, None] * (stiffness - inertia) * scale
+    block = scale[:, None] * block * scale
     negative = _negative(np.block([[block, volumes.T], [volumes, corner]]))
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
 

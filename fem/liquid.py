@@ -257,7 +257,7 @@ def closed_layer(liquid: LiquidSpace, layer: int, load: np.ndarray) -> ClosedLay
 
 
 class LiquidSolver:
-    """Factorized Laplace operator A⁺ on the free unknowns of the liquids.
+    """Factorized Laplace operator A⁺ on the unknowns of the liquids; those that are held have rows of the identity.
 
     Args:
         matrix: A on all unknowns.
@@ -267,70 +267,51 @@ class LiquidSolver:
 
     def __init__(self, matrix: PETSc.Mat, constrained: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
         """Factorize (collective)."""
-        first, last = matrix.getOwnershipRange()
-        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), constrained)
-        self._local_free = free
-        rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
-        block = matrix.createSubMatrix(rows, rows)
+        block = matrix.copy()
+        block.zeroRowsColumns((constrained + matrix.getOwnershipRange()[0]).astype(PETSc.IntType), diag=1.0)
         self._solver = direct_solver(block)
         self._solver.setUp()
-        self._rhs, self._solution = block.createVecs()
+        self._rhs = block.createVecRight()
+        self._held = constrained
         self._closed = closed
         self._comm = matrix.comm.tompi4py()
         self.solves = 0
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
         """``potential`` ← A⁺ ``load`` (both on all unknowns; ``load`` is not changed)."""
-        values = load.array_r
+        values = self._rhs.array
+        values[:] = load.array_r
         if self._closed:
-            values = values.copy()
             fluxes = self._sums([values[layer.dofs].sum() for layer in self._closed])
             for layer, flux in zip(self._closed, fluxes, strict=True):
                 values[layer.dofs] -= flux / layer.measure * layer.load
-        self._rhs.array[:] = values[self._local_free]
-        self._solver.solve(self._rhs, self._solution)
-        potential.set(0.0)
-        solution = potential.array
-        solution[self._local_free] = self._solution.array_r
+        values[self._held] = 0.0
+        self._solver.solve(self._rhs, potential)
         if self._closed:
+            solution = potential.array
             means = self._sums([layer.load @ solution[layer.dofs] for layer in self._closed])
             for layer, mean in zip(self._closed, means, strict=True):
                 solution[layer.dofs] -= mean / layer.measure
         self.solves += 1
 
     def solve_all(self, coupling: PETSc.Mat) -> np.ndarray:
-        """Return A⁺C for all loads C at once, on one process, both of shape (N, loads), the result in Fortran's order.
-
-        Few unknowns are on the moving surfaces: C is sparse.
-        """
-        (size, count), free = coupling.getSize(), self._local_free
-        place = np.full(size, -1)
-        place[free] = np.arange(len(free))
-        starts, loads, entries = coupling.getValuesCSR()
-        rows = np.repeat(np.arange(size), np.diff(starts))
-        # One load after the other.
-        values, answers = np.zeros((count, len(free))), np.zeros((count, size))
-        seen = place[rows] >= 0
-        values[loads[seen], place[rows[seen]]] = entries[seen]
-        moving = []
-        for layer in self._closed:
-            own = np.zeros(size)
-            own[layer.dofs] = layer.load
-            moving.append(np.flatnonzero(own))
-            inside = np.zeros(size)
-            inside[layer.dofs] = 1.0
-            flux = np.bincount(loads, entries * inside[rows], count) / layer.measure
-            changed = moving[-1][place[moving[-1]] >= 0]
-            values[:, place[changed]] -= np.outer(flux, own[changed])
-        right = PETSc.Mat().createDense((len(free), count), array=values.T, comm=PETSc.COMM_SELF)
-        result = right.duplicate()
+        """Return A⁺C for all loads C at once, on one process, both of shape (N, loads), the result in Fortran's
+        order."""
+        right = coupling.convert("dense", PETSc.Mat())
+        values = right.getDenseArray()
+        # Few unknowns are on the moving surfaces.
+        moving = [np.arange(len(values))[layer.dofs][layer.load != 0.0] for layer in self._closed]
+        loads = [layer.load[layer.load != 0.0] / layer.measure for layer in self._closed]
+        for layer, places, load in zip(self._closed, moving, loads, strict=True):
+            values[places] -= np.outer(load, values[layer.dofs].sum(axis=0))
+        values[self._held] = 0.0
+        answers = np.empty(values.shape, order="F")
+        result = PETSc.Mat().createDense(answers.shape, array=answers, comm=PETSc.COMM_SELF)
         self._solver.getPC().getFactorMatrix().matSolve(right, result)
-        answers[:, free] = result.getDenseArray().T
-        for layer, dofs in zip(self._closed, moving, strict=True):
-            means = answers[:, dofs] @ layer.load[layer.load != 0.0] / layer.measure
-            answers.T[layer.dofs] -= means
-        self.solves += count
-        return answers.T
+        for layer, places, load in zip(self._closed, moving, loads, strict=True):
+            answers[layer.dofs] -= load @ answers[places]
+        self.solves += answers.shape[1]
+        return answers
 
     def _sums(self, values: list[float]) -> np.ndarray:
         """Sums over all processes."""

@@ -26,17 +26,17 @@ class LiquidAnswer:
     scaled: np.ndarray
 
 
-def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, stiffness: PETSc.Mat, bodies: int) -> LiquidAnswer:
+def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, restoring: np.ndarray) -> LiquidAnswer:
     """Return an answer.
 
     Args:
         potentials: A⁺C.
         added_mass: (ρC)ᵀA⁺C, made symmetric here.
-        stiffness: K of all surface unknowns.
-        bodies: number of the first ones, which belong to bodies.
+        restoring: K_η, of the last unknowns; the first ones belong to bodies.
     """
+    bodies = len(added_mass) - len(restoring)
     added_mass = 0.5 * (added_mass + added_mass.T)
-    root = np.linalg.inv(np.linalg.cholesky(dense(stiffness)[bodies:, bodies:])).T
+    root = np.linalg.inv(np.linalg.cholesky(restoring)).T
     scaled = added_mass.copy()
     scaled[:, bodies:] = scaled[:, bodies:] @ root
     scaled[bodies:] = root.T @ scaled[bodies:]

@@ -89,7 +89,7 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
     potentials = pencil.solver.solve_all(pencil.coupling)
     columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
     momentum = pencil.momentum.transposeMatMult(columns)
-    return liquid_answer(potentials, momentum.getDenseArray(), pencil.stiffness, pencil.body_size)
+    return liquid_answer(potentials, momentum.getDenseArray(), pencil.dense_restoring)
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:

@@ -31,7 +31,7 @@ PROJECTED = 1e-11
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
 # Neighbouring modes whose ψ is computed together where the answer of the liquid is known.
-_AT_ONCE = 5
+_AT_ONCE = 12
 
 
 class EigenSolverError(RuntimeError):

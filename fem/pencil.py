@@ -9,14 +9,14 @@ the potential's unknowns on the same surface.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid_answer import LiquidAnswer
+from hydroelastic.fem.liquid_answer import LiquidAnswer, dense
 from hydroelastic.fem.liquid_operator import LiquidOperator, LiquidUnknowns, first_dof
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -52,8 +52,8 @@ class CoupledPencil(Generic[Unknowns]):
         liquid: the unknowns of ψ: a space of polynomials in the volume, or on the surface alone.
         bodies: the bodies, in the order of their unknowns.
         surfaces: the surfaces of the liquids that move under gravity, in the order of their unknowns.
-        stiffness: K, n × n, symmetric; zero on rigid motions without restoring force, negative on unstable ones.
-        mass: M, n × n; zero on the surfaces of the liquids.
+        restoring: K on the unknowns of each of these surfaces. With bodies of other stiffness and mass, only K and M
+            differ.
         coupling: C, N × n: load on ψ by a unit of each surface unknown.
         momentum: ρC, each row times the density of its layer.
         laplace: A, N × N.
@@ -61,22 +61,19 @@ class CoupledPencil(Generic[Unknowns]):
         constraints: of the closed layers. Where one follows from the others, as in two liquids that fill a rigid tank,
             it is left out: the constant of its ψ is then arbitrary.
         free_constants: owned unknowns of ψ, one for each layer whose constraint was left out.
-        surface_sizes: number of own unknowns of each surface on this process; they follow those of the bodies.
         answer: ψ and momentum of a unit of each surface unknown, where they were computed once for many solutions.
     """
 
     liquid: Unknowns
     bodies: tuple[Body, ...]
     surfaces: tuple[LiquidSurface, ...]
-    stiffness: PETSc.Mat
-    mass: PETSc.Mat
+    restoring: tuple[PETSc.Mat, ...]
     coupling: PETSc.Mat
     momentum: PETSc.Mat
     laplace: PETSc.Mat
     solver: LiquidOperator
     constraints: tuple[VolumeConstraint, ...]
     free_constants: np.ndarray
-    surface_sizes: tuple[int, ...]
     answer: LiquidAnswer | None = None
 
     @property
@@ -87,7 +84,31 @@ class CoupledPencil(Generic[Unknowns]):
     @property
     def size(self) -> int:
         """Number of surface unknowns n."""
-        return int(self.stiffness.getSize()[0])
+        return int(self.coupling.getSize()[1])
+
+    @property
+    def surface_sizes(self) -> tuple[int, ...]:
+        """Number of own unknowns of each surface on this process; they follow those of the bodies."""
+        return tuple(block.getLocalSize()[0] for block in self.restoring)
+
+    @cached_property
+    def stiffness(self) -> PETSc.Mat:
+        """K, n × n, symmetric; zero on rigid motions without restoring force, negative on unstable ones (collective
+        when first asked for)."""
+        of_bodies = [_diagonal(self.body_stiffness, self.laplace.comm)] if self.bodies else []
+        return _joined(_block_diagonal([*of_bodies, *self.restoring]))
+
+    @cached_property
+    def mass(self) -> PETSc.Mat:
+        """M, n × n; zero on the surfaces of the liquids (collective when first asked for)."""
+        of_bodies = [_on_first(self.body_mass, self.laplace.comm)] if self.bodies else []
+        of_surfaces = [_zeros(block.getSizes(), block.comm) for block in self.restoring]
+        return _joined(_block_diagonal([*of_bodies, *of_surfaces]))
+
+    @cached_property
+    def dense_restoring(self) -> np.ndarray:
+        """K of the unknowns of the surfaces, on one process, shape (surface unknowns, surface unknowns)."""
+        return dense(_joined(_block_diagonal([*self.restoring]))) if self.restoring else np.empty((0, 0))
 
     @cached_property
     def body_stiffness(self) -> np.ndarray:
@@ -108,12 +129,12 @@ class CoupledPencil(Generic[Unknowns]):
         """Volumes of the constraints, on one process, shape (constraints, unknowns)."""
         return np.array([one.volume.array_r for one in self.constraints]).reshape(-1, self.size)
 
-    @property
+    @cached_property
     def unstable(self) -> np.ndarray:
         """Indices of the body unknowns of negative stiffness: unstable motions of floats."""
         return np.flatnonzero(self.body_stiffness < 0.0)
 
-    @property
+    @cached_property
     def free_rigid(self) -> np.ndarray:
         """Indices of the body unknowns without stiffness: rigid motions without restoring force."""
         return np.flatnonzero(self.body_stiffness == 0.0)
@@ -124,6 +145,8 @@ class CoupledPencil(Generic[Unknowns]):
 
         Pitch displaces none; values within round-off are set to zero.
         """
+        if not len(self.free_rigid):
+            return np.empty((0, len(self.constraints)))
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
         largest = self.coupling.norm(PETSc.NormType.NORM_1)
         table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
@@ -145,9 +168,9 @@ class CoupledPencil(Generic[Unknowns]):
 
     def body_values(self, vector: PETSc.Vec) -> np.ndarray:
         """The body unknowns of a surface vector, on every process."""
-        if self.stiffness.comm.size == 1:
+        if vector.comm.size == 1:
             return np.array(vector.array_r[: self.body_size])
-        comm = self.stiffness.comm.tompi4py()
+        comm = vector.comm.tompi4py()
         local = vector.array_r[: self.body_size].copy() if comm.rank == 0 else None
         return np.asarray(comm.bcast(local, root=0))
 
@@ -189,52 +212,21 @@ def coupled_pencil(
         solver: A⁺.
         closed: the layers on whose boundary ψ = 0 nowhere.
     """
-    blocks, stiffness_blocks, mass_blocks = [], [], []
-    if body_coupling is not None:
-        blocks.append(body_coupling)
-        stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
-        mass_blocks.append(_on_first(_masses(bodies), laplace.comm))
-    for surface in surface_blocks:
-        blocks.append(surface.coupling)
-        stiffness_blocks.append(surface.stiffness)
-        mass_blocks.append(_zeros(surface.stiffness.getSizes(), surface.stiffness.comm))
-    coupling = _joined([blocks])
+    couplings = [surface.coupling for surface in surface_blocks]
+    coupling = _joined([couplings if body_coupling is None else [body_coupling, *couplings]])
     constraints, free_constants = _volume_constraints(liquid, coupling, closed)
     return CoupledPencil(
         liquid=liquid,
         bodies=bodies,
         surfaces=surfaces,
-        stiffness=_joined(_block_diagonal(stiffness_blocks)),
-        mass=_joined(_block_diagonal(mass_blocks)),
+        restoring=tuple(surface.stiffness for surface in surface_blocks),
         coupling=coupling,
         momentum=_weighed(liquid, coupling),
         laplace=laplace,
         solver=solver,
         constraints=constraints,
         free_constants=free_constants,
-        surface_sizes=tuple(block.stiffness.getLocalSize()[0] for block in surface_blocks),
     )
-
-
-def with_bodies(pencil: CoupledPencil, bodies: tuple[Body, ...]) -> CoupledPencil:
-    """Return the problem of other bodies of the same shapes: only K and M differ (collective)."""
-    if not bodies:
-        return pencil
-    diagonal = pencil.stiffness.getDiagonal()
-    if diagonal.comm.rank == 0:
-        diagonal.array[: pencil.body_size] = np.concatenate([body.stiffness for body in bodies])
-    stiffness = pencil.stiffness.copy()
-    stiffness.setDiagonal(diagonal)
-    stiffness.assemble()
-    # Only bodies have mass.
-    mass = pencil.mass.duplicate()
-    mass.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
-    mass.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
-    if diagonal.comm.rank == 0:
-        places = np.arange(pencil.body_size, dtype=PETSc.IntType)
-        mass.setValues(places, places, _masses(bodies))
-    mass.assemble()
-    return replace(pencil, bodies=bodies, stiffness=stiffness, mass=mass)
 
 
 def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat) -> PETSc.Mat:
@@ -305,15 +297,6 @@ def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint], largest: flo
     for part, one in zip(parts, constraints, strict=True):
         rest.axpy(-part, one.volume)
     return bool(rest.norm() > _SAME_VOLUME * size)
-
-
-def _masses(bodies: tuple[Body, ...]) -> np.ndarray:
-    """Block-diagonal matrix of the masses of bodies."""
-    stops = np.cumsum([0, *(body.size for body in bodies)])
-    masses = np.zeros((stops[-1], stops[-1]))
-    for body, first, last in zip(bodies, stops, stops[1:], strict=False):
-        masses[first:last, first:last] = body.mass
-    return masses
 
 
 def _diagonal(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:

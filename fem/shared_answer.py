@@ -40,6 +40,7 @@ class Projection:
         basis: scaled unknowns of the surfaces in the basis, orthonormal columns, shape (surface unknowns, vectors).
         root: R times the basis: unknowns of the surfaces in it.
         volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
+        projected_volumes: the same in the basis, shape (constraints, vectors).
         columns: scaled M_a times bodies and basis, shape (n, bodies + vectors).
         kinetics: scaled M_a projected on them, shape (bodies + vectors, bodies + vectors).
     """
@@ -47,6 +48,7 @@ class Projection:
     basis: np.ndarray
     root: np.ndarray
     volumes: np.ndarray
+    projected_volumes: np.ndarray
     columns: np.ndarray
     kinetics: np.ndarray
 
@@ -87,7 +89,12 @@ class SharedAnswer(LiquidAnswer):
             columns = np.hstack([self.scaled[:, : self.bodies], surfaces])
             kinetics = np.vstack([columns[: self.bodies], basis.T @ columns[self.bodies :]])
             self._projections[kept] = Projection(
-                basis=basis, root=self.root @ basis, volumes=self.volumes, columns=columns, kinetics=kinetics
+                basis=basis,
+                root=self.root @ basis,
+                volumes=self.volumes,
+                projected_volumes=self.volumes @ basis,
+                columns=columns,
+                kinetics=kinetics,
             )
         return self._projections[kept]
 

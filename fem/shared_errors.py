@@ -24,13 +24,12 @@ class SharedErrors:
     def __init__(self, liquid: LiquidSpace, answer: LiquidAnswer) -> None:
         """Begin without directions."""
         self._liquid, self._answer = liquid, answer
-        self._coefficients = straight_coefficients(liquid)
+        self._coefficients, self._starts = straight_coefficients(liquid)
         self._densities = liquid.energy_densities()
         self._directions = np.empty((len(answer.added_mass), 0))
         self._momenta = self._directions
-        # Coefficients of one degree after the other, and of one cell after the other; the directions come first.
-        self._table = np.empty((0, 0))
-        self._sizes: list[int] = []
+        # Of each direction: of one polynomial after the other, then of one component of ∇ψ, then of one cell.
+        self._table = np.empty((0, 0, len(self._densities)))
 
     def cells(self, displacements: np.ndarray) -> np.ndarray:
         """Return what `cell_errors` does, shape (modes, cells).
@@ -38,11 +37,14 @@ class SharedErrors:
         Args:
             displacements: ζ of modes at unit generalized mass, shape (n, modes).
         """
-        for displacement in displacements.T[self._beside(displacements) > _UNKNOWN]:
-            self._add(displacement)
+        unknown = displacements[:, self._beside(displacements) > _UNKNOWN]
+        if unknown.shape[1]:
+            self._add(unknown)
         parts = self._momenta.T @ displacements
-        squares = np.square(parts.T @ self._table).reshape(displacements.shape[1], sum(self._sizes), -1)
-        energies = [part.sum(axis=1) for part in np.split(squares, np.cumsum(self._sizes)[:-1], axis=1)]
+        found = parts.T @ self._table.reshape(len(self._table), -1)
+        squares = np.square(found).reshape(displacements.shape[1], *self._table.shape[1:])
+        dim = self._liquid.tank.mesh.topology.dim
+        energies = [part.sum(axis=1) for part in np.split(squares, dim * self._starts, axis=1)]
         errors: np.ndarray = self._densities * missing_energy(*energies)
         return errors
 
@@ -52,23 +54,22 @@ class SharedErrors:
         energy: np.ndarray = np.einsum("im,im->m", rest, self._answer.added_mass @ rest)
         return energy
 
-    def _add(self, displacement: np.ndarray) -> None:
-        """Make the motion beside the directions one of them."""
-        rest = displacement
-        # A second time for what rounding left.
-        for _ in range(2):
-            rest = rest - self._directions @ (self._momenta.T @ rest)
-        momentum = self._answer.added_mass @ rest
-        energy = rest @ momentum
-        if energy <= _UNKNOWN:
-            return
-        direction = rest / np.sqrt(energy)
-        self._directions = np.column_stack([self._directions, direction])
-        self._momenta = np.column_stack([self._momenta, momentum / np.sqrt(energy)])
-        potential = PETSc.Vec().createWithArray(self._answer.potentials @ direction, comm=PETSc.COMM_SELF)
-        values = cell_values(self._liquid, [potential])
-        # Of each degree: shape (coefficients, cells).
-        new = [table[0].T for table in self._coefficients(values)]
-        self._sizes = [len(table) for table in new]
-        row = np.concatenate(new).reshape(1, -1)
-        self._table = np.concatenate([self._table, row]) if len(self._table) else row
+    def _add(self, displacements: np.ndarray) -> None:
+        """Make the motions beside the directions some of them."""
+        known = self._directions.shape[1]
+        for displacement in displacements.T:
+            rest = displacement
+            # A second time for what rounding left.
+            for _ in range(2):
+                rest = rest - self._directions @ (self._momenta.T @ rest)
+            momentum = self._answer.added_mass @ rest
+            energy = rest @ momentum
+            if energy > _UNKNOWN:
+                self._directions = np.column_stack([self._directions, rest / np.sqrt(energy)])
+                self._momenta = np.column_stack([self._momenta, momentum / np.sqrt(energy)])
+        potentials = self._answer.potentials @ self._directions[:, known:]
+        vectors = [PETSc.Vec().createWithArray(one, comm=PETSc.COMM_SELF) for one in potentials.T]
+        if vectors:
+            found = self._coefficients(cell_values(self._liquid, vectors)).transpose(0, 3, 2, 1)
+            rows = found.reshape(len(vectors), -1, len(self._densities))
+            self._table = np.concatenate([self._table, rows]) if len(self._table) else rows

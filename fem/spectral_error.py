@@ -92,36 +92,36 @@ p − 4."""
 
 
 def _straight_energies(liquid: LiquidSpace) -> Energies:
-    coefficients = straight_coefficients(liquid)
+    coefficients, starts = straight_coefficients(liquid)
 
     def energies(values: np.ndarray) -> list[np.ndarray]:
-        return [np.square(found).sum(axis=2) for found in coefficients(values)]
+        squares = np.square(coefficients(values)).sum(axis=2)
+        return [part.sum(axis=2) for part in np.split(squares, starts, axis=2)]
 
     return energies
 
 
-def straight_coefficients(liquid: LiquidSpace) -> Callable[[np.ndarray], list[np.ndarray]]:
+def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], np.ndarray], np.ndarray]:
     """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients.
 
     Returns:
         From values of ψ in each cell (potentials, cells, functions) to the coefficients of ∇ψ in the degrees p − 1 …
-        p − 4, whose squares add up to ∫|∇ψ|², shape (potentials, cells, coefficients).
+        p − 4, whose squares add up to ∫|∇ψ|², shape (potentials, cells, dim, polynomials); and where the polynomials of
+        the second to the fourth of these degrees begin.
     """
     mesh = liquid.tank.mesh
     jacobian = cell_jacobians(mesh, owned_cells(mesh), _ANYWHERE[mesh.topology.dim])[:, 0]
     inverse = np.linalg.inv(jacobian).transpose(0, 2, 1)
     inverse *= np.sqrt(np.abs(np.linalg.det(jacobian)))[:, None, None]
-    tables = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
+    table, starts = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
+    dim, polynomials, functions = table.shape
 
-    def coefficients(values: np.ndarray) -> list[np.ndarray]:
-        found = []
-        for table in tables:
-            dim, polynomials, functions = table.shape
-            reference = (values @ table.reshape(-1, functions).T).reshape(*values.shape[:2], dim, polynomials)
-            found.append((inverse @ reference).reshape(*values.shape[:2], -1))
-        return found
+    def coefficients(values: np.ndarray) -> np.ndarray:
+        reference = values @ table.reshape(-1, functions).T
+        reference = reference.reshape(*values.shape[:2], dim, polynomials)
+        return np.einsum("cab,mcbj->mcaj", inverse, reference)
 
-    return coefficients
+    return coefficients, starts
 
 
 def _curved_energies(liquid: LiquidSpace) -> Energies:
@@ -168,15 +168,18 @@ def _polynomials(cell_type: basix.CellType, degree: int, points: np.ndarray) -> 
 
 
 @lru_cache(maxsize=16)
-def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.ndarray, ...]:
-    """Coefficients of the reference gradient of each basis function in orthonormal polynomials of one degree.
+def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the reference gradient of each basis function in orthonormal polynomials.
 
     Returns:
-        For the degrees p − 1 down to p − 4: shape (dim, polynomials, functions).
+        Those of the degrees p − 1 down to p − 4, shape (dim, polynomials, functions), and where the second to the
+        fourth of these degrees begin.
     """
     element = basix.ufl.element("Lagrange", cell_type.name, degree).basix_element
     points, weights = basix.make_quadrature(cell_type, 2 * degree - 2)
     slopes = element.tabulate(1, points)[1:, :, :, 0]
     polynomials, sizes = _polynomials(cell_type, degree - 1, points)
     coefficients = np.einsum("jq,q,dqn->djn", polynomials, weights, slopes, optimize=True)
-    return tuple(coefficients[:, sizes[k] : sizes[k + 1]] for k in range(degree - 1, degree - 5, -1))
+    degrees = range(degree - 1, degree - 5, -1)
+    table = np.concatenate([coefficients[:, sizes[k] : sizes[k + 1]] for k in degrees], axis=1)
+    return table, np.cumsum([sizes[k + 1] - sizes[k] for k in degrees])[:-1]

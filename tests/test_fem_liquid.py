@@ -98,6 +98,25 @@ def test_which_unknown_is_constrained_makes_no_difference(water: CoupledPencil) 
         assert difference.norm() <= ROUND_OFF * expected.norm()
 
 
+@pytest.mark.parametrize("closed", [True, False])
+def test_all_loads_at_once_are_those_one_by_one(water: CoupledPencil, closed: bool) -> None:
+    """Held unknowns are zero exactly, for their rows are those of the identity."""
+    if water.laplace.comm.size > 1:
+        pytest.skip("all loads at once are for one process")
+    size = water.laplace.getSize()[0]
+    held = np.array([size // 2]) if closed else np.arange(0, size, 7)
+    layers = (closed_layer(water.liquid, 0, surface_load(water).array),) if closed else ()
+    solver = LiquidSolver(water.laplace, held.astype(np.int32), layers)
+    answers = solver.solve_all(water.coupling)
+    load = water.coupling.createVecLeft()
+    for column in (0, answers.shape[1] // 2, answers.shape[1] - 1):
+        water.coupling.getColumnVector(column, load)
+        expected = solved(water, load, solver).array_r
+        assert np.linalg.norm(answers[:, column] - expected) <= ROUND_OFF * np.linalg.norm(expected)
+    if not closed:
+        assert not answers[held].any()
+
+
 def test_a_constant_load_along_the_water_moves_nothing(water: CoupledPencil) -> None:
     """A⁺ projects the net flux out: a closed liquid cannot give way to it."""
     load = surface_load(water)

@@ -152,7 +152,7 @@ def order_pencil(
         solver=operator,
         closed=(0,) if liquid.is_closed else (),
     )
-    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.stiffness, pencil.body_size)
+    answer = liquid_answer(potentials, coupling.T @ potentials, pencil.dense_restoring)
     return replace(pencil, answer=answer)
 
 

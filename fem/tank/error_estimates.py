@@ -138,7 +138,9 @@ def _away_and_at(at_tips: np.ndarray, cells: np.ndarray, comm: MPI.Comm) -> tupl
     Raises:
         EigenSolverError: if an energy is not finite.
     """
-    tips, whole = comm.allreduce(np.array([cells[:, at_tips].sum(axis=1), cells.sum(axis=1)]), op=MPI.SUM)
+    sums = np.array([cells @ at_tips, cells.sum(axis=1)])
+    comm.Allreduce(MPI.IN_PLACE, sums)
+    tips, whole = sums
     if not np.all(np.isfinite(whole)):
         # Comparisons of NaN with a tolerance are false.
         raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")

@@ -207,11 +207,12 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     origins = tuple((number, index) for _, number, index in ordered)
     bodies = whole_bodies(tank, shapes)
     extensions = [extension(tank, bodies, part.parity) for part in parts]
+    shares = [_shares(one) for one in extensions]
     amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
-        return _extended(parts[number].modes.completed(index), extensions[number])
+        return _extended(parts[number].modes.completed(index), extensions[number], shares[number])
 
     return FieldSolution(
         mesh=mesh,
@@ -227,8 +228,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
             growing=tuple(
-                _extended(mode, matrix)
-                for part, matrix in zip(parts, extensions, strict=True)
+                _extended(mode, matrix, share)
+                for part, matrix, share in zip(parts, extensions, shares, strict=True)
                 for mode in part.modes.growing
             ),
         ),
@@ -237,17 +238,21 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     )
 
 
-def _extended(mode: Mode, extension: np.ndarray) -> Mode:
+def _shares(extension: np.ndarray) -> np.ndarray:
+    """Parts of the energy of each unknown of a part in those of the whole tank: like the squares of their
+    amplitudes."""
+    squares: np.ndarray = extension**2
+    return squares / squares.sum(axis=0)
+
+
+def _extended(mode: Mode, extension: np.ndarray, shares: np.ndarray) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
-    # The energy of each unknown is divided among the bodies of the whole tank like the squares of their amplitudes.
-    squares = extension**2
     own = extension.shape[1]
-    shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
     return replace(
         mode,
         body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.concatenate([shares, mode.energy[own:]]),
+        energy=np.concatenate([shares @ mode.energy[:own], mode.energy[own:]]),
     )
 
 

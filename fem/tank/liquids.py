@@ -15,7 +15,7 @@ from mpi4py import MPI
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.cells import is_straight
 from hydroelastic.fem.liquid_pencil import answered
-from hydroelastic.fem.pencil import CoupledPencil, with_bodies
+from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
@@ -116,7 +116,8 @@ class SharedLiquids(Liquids):
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
             self._pencils[key] = {parity: _shared(pencil) for parity, pencil in made.items()}
         return {
-            parity: with_bodies(pencil, _bodies(tank, shapes, parity)) for parity, pencil in self._pencils[key].items()
+            parity: replace(pencil, bodies=_bodies(tank, shapes, parity))
+            for parity, pencil in self._pencils[key].items()
         }
 
 

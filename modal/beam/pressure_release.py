@@ -161,6 +161,7 @@ def _inverse_square_difference(u: FloatArray) -> FloatArray:
     """Return 1/sin²(u/2) − 4/u², by its series where the two cancel."""
     small = np.abs(u) < 0.05
     safe = np.where(small, 1.0, u)
-    series = 1 / 3 + u**2 / 60 + u**4 / 1512 + u**6 / 43200
-    difference: FloatArray = np.where(small, series, 1 / np.sin(safe / 2) ** 2 - 4 / safe**2)
+    square = u * u
+    series = 1 / 3 + square * (1 / 60 + square * (1 / 1512 + square / 43200))
+    difference: FloatArray = np.where(small, series, 1 / np.sin(safe / 2) ** 2 - 4 / (safe * safe))
     return difference

@@ -148,7 +148,7 @@ def growing_motions(solution: TankSolution) -> list[Values]:
 
 def compared(solution: TankSolution, estimates: dict[str, Estimate]) -> dict[str, Values]:
     """Return each estimate beside the first elastic tone of the first beam, by name."""
-    first = first_elastic_tone(solution, solution.tones[0]) if solution.tones else {}
+    first = first_elastic_tone(solution, solution.tones[0]) if solution.tones and estimates else {}
     return {name: _estimate(solution, estimate, first) for name, estimate in estimates.items()}
 
 

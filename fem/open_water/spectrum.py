@@ -21,11 +21,11 @@ from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
+from hydroelastic.fem.open_water.plate_orders import bent_in_order, orders_left_out
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
-from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
 from hydroelastic.fem.open_water.spectrum_rows import (
@@ -54,9 +54,10 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
-# Part of the tolerance that waves beyond the frequencies, or errors of transfer functions about an axis, may leave, and
-# the largest factor by which frequencies are widened.
+# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
+# Part of it that orders left out may change the loads of round plates by.
+_OF_ORDERS = 0.5
 # Smallest tolerance of the orders for that of the loads of round plates.
 _LEAST = 1e-3
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
@@ -89,8 +90,8 @@ def solve_spectrum(
     """Solve for the statistics of responses to irregular waves (collective).
 
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
-    same frequencies in the end. Loads of round plates are sums over the orders: where their errors are too large, all
-    orders are solved anew to a smaller tolerance.
+    same frequencies in the end. Loads of round plates are sums over as many orders as they need; should their errors be
+    too large, all orders are solved anew to a smaller tolerance.
 
     Args:
         problem: the open water.
@@ -98,20 +99,16 @@ def solve_spectrum(
         tolerance: of the statistics; ``None`` for that of the problem.
     """
     tolerance = tolerance or problem.tolerance
-    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
-    while _bends(attempts[-1].result, request, problem.tolerance):
-        # No other analysis asks for these orders: their solvers need not be kept.
-        order = attempts[-1].result.order + 1
-        attempts.append(_curves(replace(problem.of_order(order), solvers={}), request))
+    attempts = _orders(problem, request)
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
-    curves = [one.result.at(omegas) for one in attempts]
+    curves = [one.result.at(omegas, problem.tolerance) for one in attempts]
     table = _table(problem, request, curves)
     beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
     highest, finer = request.highest, problem.tolerance
     if highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
         highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
-    if problem.tank.geometry.is_revolved and table.plates and transfer > _BEYOND * tolerance:
+    if problem.tank.geometry.is_revolved and table.plates and transfer > tolerance:
         # Errors of loads fall at least like the square root of those of waves.
         finer = max(finer * (0.5 * tolerance / transfer) ** 2, _LEAST * tolerance)
     if highest != request.highest or finer < problem.tolerance:
@@ -124,12 +121,18 @@ def solve_spectrum(
     )
 
 
-def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
-    """Whether the waves of an order bend a round plate by more than a part of the tolerance."""
-    model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
-    bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
-    largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)
-    return largest > OF_LOADS * tolerance * float(weights.max())
+def _orders(problem: OpenWaterProblem, request: SpectrumRequest) -> list[Attempt[Curves]]:
+    """Transfer functions of the orders in which bodies move, and of as many as bend round plates (collective)."""
+    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    if not any(modes.bends for modes in attempts[0].result.solver.model.plate_modes.values()):
+        return attempts
+    omegas = reduce(np.intersect1d, (one.result.omegas for one in attempts))
+    bent = [bent_in_order(problem.tank, request, one.result, omegas) for one in attempts]
+    while orders_left_out(problem.tank, request, omegas, bent) > _OF_ORDERS * problem.tolerance:
+        # No other analysis asks for these orders: their solvers need not be kept.
+        attempts.append(_curves(replace(problem.of_order(len(attempts)), solvers={}), request))
+        bent.append(bent_in_order(problem.tank, request, attempts[-1].result, omegas))
+    return attempts
 
 
 def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
@@ -171,19 +174,29 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
             curves = replace(curves, errors=errors, reduced=curves.errors)
             if problem.tank.geometry.is_revolved:
-                return Attempt(result=curves, causes=joined, resolution=resolution)
+                own = _weighed_error(request, curves)
+                break
             table = _table(problem, request, [curves])
+            units = solver.model.basin.units
+            # The drift force of waves that are reflected in full.
+            reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
+            own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
             if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
                 break
             omegas = curves.omegas
-        units = solver.model.basin.units
-        # The drift force of waves that are reflected in full.
-        reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
         # Waves that carry no energy need no accuracy.
-        own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
         return Attempt(result=curves, causes=joined.scaled(own / joined.largest_total), resolution=resolution)
 
     return best_over_band(problem, band, solve)
+
+
+def _weighed_error(request: SpectrumRequest, curves: Curves) -> float:
+    """Largest relative error of the significant size of waves and of motions of an order, of those of one unit."""
+    motions = motion_errors([curves.solver.model], np.ones(len(curves.omegas)), curves.motions)
+    sizes = np.column_stack([np.ones(len(motions)), motions])
+    deviations = curves.errors[:, None] * sizes
+    told = statistics(request.spectrum, curves.omegas, sizes.astype(complex), deviations, request.duration)
+    return float(told.transfer_error.max())
 
 
 def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
@@ -270,7 +283,7 @@ def _further_orders(problem: OpenWaterProblem, request: SpectrumRequest, omegas:
 
     @cache
     def curves(order: int) -> Curves:
-        own = _curves(fixed.of_order(order), request).result.at(omegas)
+        own = _curves(fixed.of_order(order), request).result.at(omegas, fixed.tolerance)
         chosen = np.searchsorted(own.omegas, omegas)
         return replace(
             own, omegas=omegas, responses=[own.responses[place] for place in chosen], errors=own.errors[chosen]

@@ -1,7 +1,8 @@
-"""How many azimuthal orders the loads of round plates in irregular waves need.
+"""How many azimuthal orders, and which mesh, the loads of round plates in irregular waves need.
 
 Short waves bend a plate of radius a in all orders up to ka, and in higher ones hardly at all: orders are added until
-those left out change the spectra of deflection, bending moment and shear force by a small part of the tolerance.
+those left out change the spectra of deflection, bending moment and shear force by a small part of the tolerance. Which
+error the mesh leaves in loads is known from the first orders.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.results import Floats, RoundDeflection
 from hydroelastic.fem.open_water.round_plates import bent_by, deflections_of_order, joined, left_out, radii_along
+from hydroelastic.fem.open_water.spectrum_rows import meshed_load_errors
 from hydroelastic.physics.irregular_waves import moments
 from hydroelastic.physics.tank import Tank
 
@@ -21,7 +23,9 @@ from hydroelastic.physics.tank import Tank
 _POSITIONS = 15
 
 
-def bent_in_order(tank: Tank, request: SpectrumRequest, curves: Curves, omegas: Floats) -> list[RoundDeflection]:
+def bent_in_order(
+    tank: Tank, request: SpectrumRequest, curves: Curves, omegas: Floats, *, with_errors: bool = False
+) -> list[RoundDeflection]:
     """Return the deflection of each round plate in an order at some of its frequencies, without drag (collective).
 
     Args:
@@ -29,9 +33,11 @@ def bent_in_order(tank: Tank, request: SpectrumRequest, curves: Curves, omegas: 
         request: the request.
         curves: of the order.
         omegas: among their frequencies.
+        with_errors: whether errors of loads by the mesh are told, too.
     """
-    model = curves.solver.model
-    responses = [curves.responses[place] for place in np.searchsorted(curves.omegas, omegas)]
+    model, places = curves.solver.model, np.searchsorted(curves.omegas, omegas)
+    responses = [curves.responses[place] for place in places]
+    of_loads = meshed_load_errors(curves) if with_errors else {}
     moved = [(one.motions, np.zeros((len(one.motions), len(model.outside.drag)))) for one in responses]
     return list(
         deflections_of_order(
@@ -40,10 +46,32 @@ def bent_in_order(tank: Tank, request: SpectrumRequest, curves: Curves, omegas: 
             moved,
             direction_of(request.waves_from),
             np.zeros(len(omegas)),
-            {},
+            {index: values[places] for index, values in of_loads.items()},
             lambda index: radii_along(tank, index, _POSITIONS),
         )
     )
+
+
+def meshed_errors(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: list[list[RoundDeflection]]) -> float:
+    """Return the errors that the mesh leaves in loads, relative to the largest of each; the arguments are those of
+    `orders_left_out`, of some of the orders, with errors."""
+    largest = [0.0]
+    for parts in zip(*bent, strict=True):
+        found = joined(list(parts))
+        loads = bent_by(plate_of(tank.bodies[found.body]), found.radii, found.derivatives, np.arange(len(bent)))
+        for values, errors in zip(loads, found.uncertain, strict=True):
+            largest.append(_part(request, omegas, values, errors.sum(axis=-1)))
+    return max(largest)
+
+
+def _part(request: SpectrumRequest, omegas: Floats, orders: np.ndarray, missing: np.ndarray) -> float:
+    """Significant amplitude of what is missing, shape (n, 1), over the largest of a sum of orders, shape (n, 1,
+    orders, points)."""
+    size, left = (
+        np.sqrt(moments(request.spectrum, omegas, transfer.astype(complex), (0,))[0].max())
+        for transfer in (orders.sum(axis=-2)[:, 0], missing)
+    )
+    return float(left / max(size, np.finfo(float).tiny))
 
 
 def orders_left_out(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: list[list[RoundDeflection]]) -> float:
@@ -62,11 +90,6 @@ def orders_left_out(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: 
     for parts in zip(*bent, strict=True):
         found = joined(list(parts))
         plate = plate_of(tank.bodies[found.body])
-        loads = bent_by(plate, found.radii, found.derivatives, orders) if plate.flexural_rigidity else []
-        for values in (found.derivatives[0], *loads):
-            sizes, missing = (
-                np.sqrt(moments(request.spectrum, omegas, transfer, (0,))[0].max())
-                for transfer in (values.sum(axis=-2)[:, 0], left_out(values))
-            )
-            largest.append(float(missing / max(sizes, np.finfo(float).tiny)))
+        loads = bent_by(plate, found.radii, found.derivatives, orders)[: 2 * bool(plate.flexural_rigidity)]
+        largest += [_part(request, omegas, values, left_out(values)) for values in (found.derivatives[0], *loads)]
     return max(largest)

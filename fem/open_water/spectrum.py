@@ -21,7 +21,7 @@ from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
-from hydroelastic.fem.open_water.plate_orders import bent_in_order, orders_left_out
+from hydroelastic.fem.open_water.plate_orders import bent_in_order, meshed_errors, orders_left_out
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
@@ -56,8 +56,9 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 _FIRST = 33
 # Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
-# Part of it that orders left out may change the loads of round plates by.
-_OF_ORDERS = 0.5
+# Parts of it that orders left out, and the mesh in the first orders, may change the loads of round plates by, and that
+# which a finer mesh shall leave.
+_OF_ORDERS, _OF_MESH, _FINER = 0.5, 0.75, 0.25
 # Smallest tolerance of the orders for that of the loads of round plates.
 _LEAST = 1e-3
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
@@ -90,8 +91,8 @@ def solve_spectrum(
     """Solve for the statistics of responses to irregular waves (collective).
 
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
-    same frequencies in the end. Loads of round plates are sums over as many orders as they need; should their errors be
-    too large, all orders are solved anew to a smaller tolerance.
+    same frequencies in the end. Loads of round plates are sums over as many orders as they need, on meshes whose errors
+    in the first orders are a part of the tolerance; should the others add too much, all are solved anew.
 
     Args:
         problem: the open water.
@@ -99,21 +100,27 @@ def solve_spectrum(
         tolerance: of the statistics; ``None`` for that of the problem.
     """
     tolerance = tolerance or problem.tolerance
-    attempts = _orders(problem, request)
+    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
+    if any(modes.bends for modes in attempts[0].result.solver.model.plate_modes.values()):
+        meshed = _meshed_loads(problem, request, attempts)
+        if meshed > _OF_MESH * tolerance and (finer := _with_smaller_errors(problem, meshed, tolerance)):
+            return solve_spectrum(finer, request, tolerance)
+        attempts = _further_bent(problem, request, attempts, tolerance)
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas, problem.tolerance) for one in attempts]
-    table = _table(problem, request, curves)
-    beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
-    highest, finer = request.highest, problem.tolerance
-    if highest is None and beyond > _BEYOND * tolerance:
+    table = _table(replace(problem, tolerance=tolerance), request, curves)
+    beyond = table.largest_error("truncation_error")
+    if request.highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
         highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
-    if problem.tank.geometry.is_revolved and table.plates and transfer > tolerance:
-        # Errors of loads fall at least like the square root of those of waves.
-        finer = max(finer * (0.5 * tolerance / transfer) ** 2, _LEAST * tolerance)
-    if highest != request.highest or finer < problem.tolerance:
-        problem = replace(problem, tolerance=finer, solvers=problem.solvers if finer == problem.tolerance else {})
         return solve_spectrum(problem, replace(request, highest=highest), tolerance)
+    loads = max((one.transfer_error for one in table.plates), default=0.0)
+    if (
+        problem.tank.geometry.is_revolved
+        and loads > tolerance
+        and (finer := _with_smaller_errors(problem, loads, tolerance))
+    ):
+        return solve_spectrum(finer, request, tolerance)
     return SpectrumSolution(
         table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
@@ -121,14 +128,29 @@ def solve_spectrum(
     )
 
 
-def _orders(problem: OpenWaterProblem, request: SpectrumRequest) -> list[Attempt[Curves]]:
-    """Transfer functions of the orders in which bodies move, and of as many as bend round plates (collective)."""
-    attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
-    if not any(modes.bends for modes in attempts[0].result.solver.model.plate_modes.values()):
-        return attempts
+def _with_smaller_errors(problem: OpenWaterProblem, error: float, tolerance: float) -> OpenWaterProblem | None:
+    """Return the problem with the tolerance of waves that loads of round plates need; ``None`` if it is the least."""
+    # Errors of loads fall at least like the square root of those of waves.
+    finer = max(problem.tolerance * (_FINER * tolerance / error) ** 2, _LEAST * tolerance)
+    return replace(problem, tolerance=finer, solvers={}) if finer < problem.tolerance else None
+
+
+def _meshed_loads(problem: OpenWaterProblem, request: SpectrumRequest, attempts: list[Attempt[Curves]]) -> float:
+    """Relative error that the mesh leaves in the loads of round plates in the first orders (collective)."""
+    common = reduce(np.intersect1d, (one.result.omegas for one in attempts))
+    bent = [bent_in_order(problem.tank, request, one.result, common, with_errors=True) for one in attempts]
+    return meshed_errors(problem.tank, request, common, bent)
+
+
+def _further_bent(
+    problem: OpenWaterProblem, request: SpectrumRequest, attempts: list[Attempt[Curves]], tolerance: float
+) -> list[Attempt[Curves]]:
+    """Transfer functions of the orders in which bodies move, and of as many as loads of round plates need
+    (collective)."""
+    attempts = list(attempts)
     omegas = reduce(np.intersect1d, (one.result.omegas for one in attempts))
     bent = [bent_in_order(problem.tank, request, one.result, omegas) for one in attempts]
-    while orders_left_out(problem.tank, request, omegas, bent) > _OF_ORDERS * problem.tolerance:
+    while orders_left_out(problem.tank, request, omegas, bent) > _OF_ORDERS * tolerance:
         # No other analysis asks for these orders: their solvers need not be kept.
         attempts.append(_curves(replace(problem.of_order(len(attempts)), solvers={}), request))
         bent.append(bent_in_order(problem.tank, request, attempts[-1].result, omegas))

@@ -189,16 +189,16 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     model, incidence = solution.model, solution.incidence
     powers = incidence.powers[solution.incident]
     away, tips = (0.5 * energy / powers for energy in model.summed_over_cells(solution.missed))
-    if incidence.directions == 1:
-        away += model.cut
-    else:
-        away += solution.reflected * solution.scattered_powers / powers
-        moved = _reported_motions(model)
-        sizes = np.maximum(np.abs(moved @ solution.motions.T).max(axis=0), incidence.elevations[solution.incident])
-        own = functional_errors(solution, dual_motions(solution, moved))
-        away, tips = (
-            np.maximum(waves, (motions / sizes).max(axis=0)) for waves, motions in zip((away, tips), own, strict=True)
-        )
+    away += solution.reflected * solution.scattered_powers / powers
+    moved = _reported_motions(model)
+    sizes = np.maximum(
+        np.abs(moved @ solution.motions.T).max(axis=0, initial=0.0), 1.0 / np.abs(solution.per_elevation(RIGHTWARD))
+    )
+    own = functional_errors(solution, dual_motions(solution, moved))
+    away, tips = (
+        np.maximum(waves, (motions / sizes).max(axis=0, initial=0.0))
+        for waves, motions in zip((away, tips), own, strict=True)
+    )
     count = len(solution.incident)
     return FrequencyErrors(
         liquid=away + boundary_error(model.pencil.liquid.tank, model.basin.tank),

@@ -214,8 +214,10 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
 
 def _weighed_error(request: SpectrumRequest, curves: Curves) -> float:
     """Largest relative error of the significant size of waves and of motions of an order, of those of one unit."""
-    motions = motion_errors([curves.solver.model], np.ones(len(curves.omegas)), curves.motions)
-    sizes = np.column_stack([np.ones(len(motions)), motions])
+    ones, models = np.ones(len(curves.omegas)), [curves.solver.model]
+    sizes = ones[:, None]
+    if curves.motions.size:
+        sizes = np.column_stack([ones, motion_errors(models, ones, curves.motions)])
     deviations = curves.errors[:, None] * sizes
     told = statistics(request.spectrum, curves.omegas, sizes.astype(complex), deviations, request.duration)
     return float(told.transfer_error.max())

@@ -214,7 +214,8 @@ class OpenModel:
         low, high = map(np.array, self.basin.bounds)
         middles = cell_corners(mesh, owned_cells(mesh)).mean(axis=1)
         # Within a radian of the shortest wave ψ does not oscillate: errors in layers around small bodies add up.
-        centre = np.where([self.basin.tank.geometry.is_revolved, True], [0.0, high[1]], 0.5 * (low + high))
+        axis = 0.0 if self.basin.tank.geometry.is_revolved else 0.5 * (low[0] + high[0])
+        centre = np.array([axis, high[1]])
         radian = 1.0 / self.shortest
         low, high = np.minimum(low, centre - radian), np.maximum(high, centre + radian)
         outside: np.ndarray = np.any((middles < low) | (middles > high), axis=1)

@@ -223,7 +223,7 @@ def _reported_motions(model: OpenModel) -> np.ndarray:
             found.append(beam_shapes(beam, body.size).tabulated(beam.length * np.array([0.0, 0.5, 1.0]), 0).T)
         elif index in model.plate_modes:
             plate = plate_of(tank.bodies[index])
-            radii = np.linspace(plate.inner_radius, plate.radius, 3)
+            radii = np.linspace(plate.inner_radius, plate.radius, 3, dtype=np.float64)
             found.append(model.plate_modes[index].shapes.values(radii)[: body.size].T)
         else:
             found.append(np.eye(body.size))

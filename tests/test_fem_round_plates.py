@@ -13,7 +13,8 @@ from open_cases import complex_of, stored
 from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.bodies.round_plate import RoundShapes
-from hydroelastic.fem.open_water import plate_modes
+from hydroelastic.fem.open_water import plate_modes, spectrum
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import (
     ImpulseResponseRequest,
     MotionRequest,
@@ -297,8 +298,8 @@ def test_irregular_waves_are_regular_ones_summed() -> None:
     """Transfer functions at points on both sides of the axis, of all orders together, against regular waves."""
     body = {"radius": 1.0, "youngs_modulus": 1e7, "thickness": 0.02, "poisson_ratio": 0.4, "mass_per_area": 5.0}
     # Nothing is beyond a table.
-    spectrum = TabulatedSpectrum(omega=(1.0, 1.5, 2.0, 2.5), values=(0.0, 1e-3, 8e-4, 0.0))
-    request = SpectrumRequest(spectrum=spectrum, words="", points=((0, (0.5, 0.0)), (0, (-0.7, 0.0))), positions=11)
+    waves = TabulatedSpectrum(omega=(1.0, 1.5, 2.0, 2.5), values=(0.0, 1e-3, 8e-4, 0.0))
+    request = SpectrumRequest(spectrum=waves, words="", points=((0, (0.5, 0.0)), (0, (-0.7, 0.0))), positions=11)
     solution = solved(body, 2.0, 1e-2, request)
     assert solution.status == "ok"
     (found,) = solution.spectrum
@@ -323,6 +324,34 @@ def test_irregular_waves_are_regular_ones_summed() -> None:
     place = int(np.argmin(np.abs(along.positions - 0.5)))
     assert along.largest_stress is not None
     assert along.largest_stress[place] == pytest.approx(6.0 / 0.02**2 * moment.largest_amplitude, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_loads_in_a_sea_state_keep_the_tolerance_in_one_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of an ice floe in waves up to ka = 9, against a tolerance ten times smaller; no order is solved twice."""
+    body = {"radius": 10.0, "youngs_modulus": 6e9, "thickness": 0.3, "poisson_ratio": 0.3, "mass_per_area": 277.0}
+    waves = TabulatedSpectrum(omega=(1.0, 1.5, 2.0, 3.0), values=(0.0, 1e-2, 6e-3, 0.0))
+    request = SpectrumRequest(spectrum=waves, words="", positions=21)
+    (known,) = solved(body, math.inf, 1e-3, request).spectrum
+    orders: list[int] = []
+    curves = spectrum._curves
+
+    def counted(problem: OpenWaterProblem, *others: Any) -> Any:
+        orders.append(problem.tank.geometry.order)
+        return curves(problem, *others)
+
+    monkeypatch.setattr(spectrum, "_curves", counted)
+    solution = solved(body, math.inf, 1e-2, request)
+    assert solution.status == "ok"
+    (found,) = solution.spectrum
+    # The shortest waves bend it in all orders up to ka = 9.2, and the loads need some more.
+    assert orders == list(range(len(orders)))
+    assert 10 < len(orders) < 16
+    for name, told in found.plates[0].relative_errors.items():
+        one, other = (getattr(table.plates[0], f"significant_{name}") for table in (found, known))
+        assert np.abs(one - other).max() / other.max() < told < 1e-2, name
+    off = abs(found.mean_drift_force - known.mean_drift_force)
+    assert off < found.mean_drift_error < 1e-2 * known.mean_drift_force
 
 
 @pytest.mark.slow

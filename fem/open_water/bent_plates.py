@@ -40,6 +40,23 @@ def omitted_effect(modes: PlateModes, response: OpenResponse) -> np.ndarray:
     return np.asarray(np.abs(further) / response.incidence.powers[response.incident])
 
 
+def omitted_deflections(modes: PlateModes, response: OpenResponse, dual: np.ndarray) -> np.ndarray:
+    """Return what the waves radiated by the further modes change motions by, by their dual solutions (collective).
+
+    Args:
+        modes: of the plate.
+        response: to waves.
+        dual: see `functional_errors.dual_motions`, shape (functionals, body unknowns).
+
+    Returns:
+        Shape (functionals, incident).
+    """
+    loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual)
+    pressures = response.model.pencil.products(loaded, modes.loads[modes.count :])
+    further = bent_without_drag(modes, response)[:, modes.count :]
+    return np.asarray(abs(response.squared) * np.abs(pressures @ further.T))
+
+
 def _pressures(modes: PlateModes, response: OpenResponse, motions: np.ndarray) -> np.ndarray:
     """∫ρΨ on all modes of all waves, shape (incident, modes)."""
     surface, waves = modes.surface, [response.incidence.planes[place] for place in response.incident]

@@ -40,7 +40,7 @@ class Curves:
         errors: estimated relative errors, shape (n,).
         reduced: those by the reduced basis alone, shape (n,).
         incident: indices of the incident waves.
-        ratio: relative error of the basis over the square of its residual.
+        swept: the last sweep, which tells the error of the basis.
     """
 
     solver: OpenSolver
@@ -49,20 +49,38 @@ class Curves:
     errors: np.ndarray
     reduced: np.ndarray
     incident: list[int]
-    ratio: float
+    swept: Swept[OpenResponse]
 
-    def at(self, omegas: np.ndarray) -> Curves:
-        """Return the responses at all these frequencies and further ones, within the same limits (collective)."""
+    def at(self, omegas: np.ndarray, tolerance: float) -> Curves:
+        """Return the responses at all these frequencies and further ones (collective).
+
+        Args:
+            omegas: rad/s.
+            tolerance: see `certified`.
+        """
         union = np.union1d(self.omegas, omegas)
         places = [int(place) for place in np.searchsorted(union, self.omegas)]
-        errors, reduced = (between(union, places, own) for own in (self.errors, self.reduced))
+        meshed, reduced = (between(union, places, own) for own in (self.errors - self.reduced, self.reduced))
         found = dict(zip(places, self.responses, strict=True))
         for place in sorted(set(range(len(union))) - set(places)):
             found[place], residual = self.solver.response_between(float(union[place]), self.incident)
-            for own in (errors, reduced):
-                own[place] += self.ratio * residual**2
+            reduced[place] = self.swept.ratio * residual**2
         responses = [found[place] for place in range(len(union))]
-        return replace(self, omegas=union, responses=responses, errors=errors, reduced=reduced)
+        known = replace(self, omegas=union, responses=responses, reduced=reduced).certified(tolerance)
+        return replace(known, errors=meshed + known.reduced)
+
+    def certified(self, tolerance: float) -> Curves:
+        """Return the same on a basis that is accurate at all of the frequencies, with its errors alone (collective).
+
+        Between the frequencies of a sweep waves may change that are much shorter than the bodies.
+
+        Args:
+            tolerance: of what the sweep compares, a part of which is left to the basis.
+        """
+        if self.reduced.max() <= SHARE * tolerance:
+            return replace(self, errors=self.reduced)
+        swept = self.swept.again(self.omegas)
+        return replace(self, responses=swept.solutions, errors=swept.errors, reduced=swept.errors, swept=swept)
 
     @property
     def order(self) -> int:
@@ -87,11 +105,8 @@ def certified_curves(
         problem: solves at a frequency.
         tolerance: of what `Problem.difference` compares, and of the splines, see `refined_curves`.
     """
-    curves = refined_curves(solver, incident, omegas, sweep(problem, omegas, tolerance), tolerance)
-    if curves.errors.max() <= SHARE * tolerance:
-        return curves
-    swept = sweep(problem, curves.omegas, tolerance)
-    return replace(curves, responses=swept.solutions, errors=swept.errors, reduced=swept.errors)
+    swept = sweep(problem, omegas, tolerance)
+    return refined_curves(solver, incident, omegas, swept, tolerance).certified(tolerance)
 
 
 def refined_curves(
@@ -144,7 +159,7 @@ def refined_curves(
         errors=reduced,
         reduced=reduced,
         incident=incident,
-        ratio=swept.ratio,
+        swept=swept,
     )
 
 

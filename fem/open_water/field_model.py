@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, exp, isfinite, pi, sin
+from math import isfinite, pi
 
 import numpy as np
 from mpi4py import MPI
@@ -211,26 +211,20 @@ class OpenModel:
     @cached_property
     def _in_absorbing_layer(self) -> np.ndarray:
         mesh = self.pencil.liquid.tank.mesh
-        low, high = self.basin.bounds
+        low, high = map(np.array, self.basin.bounds)
         middles = cell_corners(mesh, owned_cells(mesh)).mean(axis=1)
-        outside: np.ndarray = np.any((middles < np.array(low)) | (middles > np.array(high)), axis=1)
+        # Within a radian of the shortest wave ψ does not oscillate: errors in layers around small bodies add up.
+        axis = 0.0 if self.basin.tank.geometry.is_revolved else 0.5 * (low[0] + high[0])
+        centre = np.array([axis, high[1]])
+        radian = 1.0 / self.shortest
+        low, high = np.minimum(low, centre - radian), np.maximum(high, centre + radian)
+        outside: np.ndarray = np.any((middles < low) | (middles > high), axis=1)
         return outside
 
     @property
     def cut(self) -> float:
-        """Relative error of truncating the absorbing layer at both ends."""
+        """Largest relative error of truncating the absorbing layer at both ends, at any frequency."""
         return 2.0 * CUT * self.tolerance
-
-    def reflected(self, wavenumber: float) -> float:
-        """Part of the power of outgoing waves of one wavenumber, in units of the basin, that both ends of the absorbing
-        layer reflect: of waves e^{−2kX sin α}, of the slowest evanescent mode e^{−πX cos α/H} between a bed and a free
-        top, of ψ ~ 1/(kX) in deep liquids the energy (kX)⁻². Measured on beams: at both ends the first ones are 1.0 to
-        2 times the error, the last one 20 times; they count one and a half times and by half."""
-        layer, depths = self.absorbing_layer, self.basin.depths
-        reach, bounded = wavenumber * layer.farthest, sum(depth for depth in depths if isfinite(depth))
-        evanescent = exp(-pi * layer.farthest * cos(layer.angle) / bounded) if bounded else 0.0
-        deep = 0.0 if all(isfinite(depth) for depth in depths) else reach**-2
-        return 3.0 * (exp(-2.0 * reach * sin(layer.angle)) + evanescent) + deep
 
     def compared(self, added: np.ndarray) -> np.ndarray:
         """Return the scale of errors of H of each body unknown, shape (body unknowns,): |H|, or a small part of the
@@ -238,19 +232,24 @@ class OpenModel:
         own: np.ndarray = np.maximum(added, NO_WATER * np.diag(self.mass))
         return own
 
-    def errors(self, potentials: np.ndarray, responses: np.ndarray) -> FrequencyErrors:
+    def errors(
+        self, potentials: np.ndarray, responses: np.ndarray, truncation: np.ndarray | None = None
+    ) -> FrequencyErrors:
         """Relative errors of H of each body unknown, by cause (collective).
 
         Args:
             potentials: ψ radiated by a unit of each body unknown, shape (body unknowns, free unknowns).
             responses: diagonal of |H|, shape (body unknowns,).
+            truncation: relative errors by truncating the absorbing layer, shape (body unknowns,); by default `cut`.
         """
         away, at_tips = self.energies_missed(potentials)
         scale = self.compared(np.abs(responses))
         tank = self.basin.tank
         count = len(responses)
         return FrequencyErrors(
-            liquid=away / scale + boundary_error(self.pencil.liquid.tank, tank) + self.cut,
+            liquid=away / scale
+            + boundary_error(self.pencil.liquid.tank, tank)
+            + (self.cut if truncation is None else truncation),
             tips=at_tips / scale,
             truncation=np.zeros(count),
             rounding=np.full(count, 2.0 * rounding_error(self.resolution.degree, min(tank.depth, 1.0))),

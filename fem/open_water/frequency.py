@@ -53,6 +53,16 @@ class OpenFrequency:
         return self.potentials()
 
     @property
+    def truncation(self) -> np.ndarray:
+        """Relative errors of the diagonal of H by truncating the absorbing layer, shape (body unknowns,): of the power
+        that is radiated and of |H|, for H has the error A_λ(ψ − ψ_h, ψ − ψ_h)."""
+        longest = min(plane.wave.wavenumber for plane in self.incidence.planes)
+        waves, beside = self.model.absorbing_layer.reflected(self.model.basin, longest)
+        diagonal = np.diag(self.hydrodynamic)
+        found: np.ndarray = waves * np.abs(diagonal.imag) / self.model.compared(np.abs(diagonal)) + beside
+        return found
+
+    @property
     def diffraction_force(self) -> np.ndarray:
         """λFᵀφ_D for each incident wave, shape (waves, body unknowns)."""
         force: np.ndarray = self.squared * self.diffraction
@@ -150,7 +160,7 @@ class OpenResponse:
     @property
     def reflected(self) -> float:
         """Part of the power of outgoing waves that the ends of the absorbing layer reflect at most."""
-        return self.model.reflected(float(self._wavenumbers.min()))
+        return sum(self.model.absorbing_layer.reflected(self.model.basin, float(self._wavenumbers.min())))
 
     @property
     def scattered_powers(self) -> np.ndarray:

@@ -11,8 +11,8 @@ load of J. Hence |J_h − J| ≤ λ Σ √(E_y E), summed over the cells, with t
 ψ_y is rough where the functional jumps, which costs nothing where ψ is smooth. In long waves a body follows the surface
 and scatters next to nothing, E is small, and so are the errors of loads, however small the loads are.
 
-The part r of the power of outgoing waves that the ends of the absorbing layer reflect, `OpenModel.reflected`, changes J
-likewise by r λ √(P_y P), P = Σ kN|c|² of the waves of ψ_y and of ψ.
+The part r of the power of outgoing waves that the ends of the absorbing layer reflect, `AbsorbingLayer.reflected`,
+changes J likewise by r λ √(P_y P), P = Σ kN|c|² of the waves of ψ_y and of ψ.
 
 Source: the dual of a goal functional, R. Becker, R. Rannacher, Acta Numerica 10 (2001), § 2.
 """

@@ -16,7 +16,7 @@ from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders, drift_widths
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -161,14 +161,12 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         drift, drift_error = np.full((2, len(first.omega)), np.nan)
     else:
         drift, drift_error = drift_of_orders(
-            problem.tank,
-            first.omega,
-            first.wavenumbers[:, 0],
+            drift_widths(problem.tank, first.omega)[1],
             waves[:, 0, 0],
             np.array([table.relative_error for table in tables]).T,
             np.array([table.energy_residual[:, 0] for table in tables]).T,
         )
-        drift = direction_of(first.waves_from) * drift
+        drift, drift_error = direction_of(first.waves_from) * drift.sum(axis=1), drift_error.sum(axis=1)
     return replace(
         first,
         dofs=dofs,

@@ -126,7 +126,7 @@ def relative_difference(one: np.ndarray, other: np.ndarray) -> float:
 
 
 def _causes(solution: OpenFrequency) -> FrequencyErrors:
-    return solution.model.errors(solution.radiated, np.abs(np.diag(solution.hydrodynamic)))
+    return solution.model.errors(solution.radiated, np.abs(np.diag(solution.hydrodynamic)), solution.truncation)
 
 
 def estimated_places(omegas: np.ndarray) -> list[int]:

@@ -10,8 +10,10 @@ from typing import Any, Literal
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.bodies.round_plate import plate_of
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.beam_loads import AlongBeam, BeamLoads
+from hydroelastic.fem.open_water.bent_plates import omitted_deflections
 from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
@@ -187,43 +189,45 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     deflection. About an axis motions have the errors of waves.
     """
     model, incidence = solution.model, solution.incidence
-    powers = incidence.powers[solution.incident]
+    powers, count = incidence.powers[solution.incident], len(solution.incident)
     away, tips = (0.5 * energy / powers for energy in model.summed_over_cells(solution.missed))
-    if incidence.directions == 1:
-        away += model.cut
-    else:
-        away += solution.reflected * solution.scattered_powers / powers
-        moved = _reported_motions(model)
-        sizes = np.maximum(np.abs(moved @ solution.motions.T).max(axis=0), incidence.elevations[solution.incident])
-        own = functional_errors(solution, dual_motions(solution, moved))
-        away, tips = (
-            np.maximum(waves, (motions / sizes).max(axis=0)) for waves, motions in zip((away, tips), own, strict=True)
-        )
-    count = len(solution.incident)
+    away += solution.reflected * solution.scattered_powers / powers
+    moved = _reported_motions(model)
+    sizes = np.maximum(
+        np.abs(moved @ solution.motions.T).max(axis=0, initial=0.0), 1.0 / np.abs(solution.per_elevation(RIGHTWARD))
+    )
+    dual = dual_motions(solution, moved)
+    own = functional_errors(solution, dual)
+    omitted = np.full(count, truncation(solution))
+    for modes in model.plate_modes.values():
+        omitted = np.maximum(omitted, (omitted_deflections(modes, solution, dual) / sizes).max(axis=0))
+    away, tips = (
+        np.maximum(waves, (motions / sizes).max(axis=0, initial=0.0))
+        for waves, motions in zip((away, tips), own, strict=True)
+    )
     return FrequencyErrors(
         liquid=away + boundary_error(model.pencil.liquid.tank, model.basin.tank),
         tips=tips,
-        truncation=np.full(count, truncation(solution)),
+        truncation=omitted,
         rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),
     )
 
 
 def _reported_motions(model: OpenModel) -> np.ndarray:
-    """The motions of floats, and deflections of beams at both ends and in the middle, by a unit of each body unknown,
-    shape (motions, unknowns)."""
-    tank, bodies = model.basin.tank, model.pencil.bodies
-    return np.asarray(
-        block_diag(
-            *(
-                beam_shapes(tank.beams[index], body.size)
-                .tabulated(tank.beams[index].length * np.array([0.0, 0.5, 1.0]), 0)
-                .T
-                if index in tank.beams
-                else np.eye(body.size)
-                for index, body in enumerate(bodies)
-            )
-        )
-    )
+    """The motions of floats, and deflections of beams and round plates at both ends, or at the axis, and in the middle,
+    by a unit of each body unknown, shape (motions, unknowns)."""
+    tank, found = model.basin.tank, []
+    for index, body in enumerate(model.pencil.bodies):
+        if index in tank.beams:
+            beam = tank.beams[index]
+            found.append(beam_shapes(beam, body.size).tabulated(beam.length * np.array([0.0, 0.5, 1.0]), 0).T)
+        elif index in model.plate_modes:
+            plate = plate_of(tank.bodies[index])
+            radii = np.linspace(plate.inner_radius, plate.radius, 3, dtype=np.float64)
+            found.append(model.plate_modes[index].shapes.values(radii)[: body.size].T)
+        else:
+            found.append(np.eye(body.size))
+    return np.asarray(block_diag(*found))
 
 
 def load_errors(model: OpenModel, solutions: list[OpenResponse]) -> dict[int, np.ndarray]:

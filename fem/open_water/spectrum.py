@@ -21,11 +21,11 @@ from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
+from hydroelastic.fem.open_water.plate_orders import bent_in_order, meshed_errors, orders_left_out
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
-from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
 from hydroelastic.fem.open_water.spectrum_rows import (
@@ -54,9 +54,11 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
-# Part of the tolerance that waves beyond the frequencies, or errors of transfer functions about an axis, may leave, and
-# the largest factor by which frequencies are widened.
+# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
 _BEYOND, _WIDEST = 0.5, 2.0
+# Parts of it that orders left out, and the mesh in the first orders, may change the loads of round plates by, and that
+# which a finer mesh shall leave.
+_OF_ORDERS, _OF_MESH, _FINER = 0.5, 0.75, 0.25
 # Smallest tolerance of the orders for that of the loads of round plates.
 _LEAST = 1e-3
 # Frequencies over the last one, of which the largest elevation is taken for that beyond.
@@ -89,8 +91,8 @@ def solve_spectrum(
     """Solve for the statistics of responses to irregular waves (collective).
 
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
-    same frequencies in the end. Loads of round plates are sums over the orders: where their errors are too large, all
-    orders are solved anew to a smaller tolerance.
+    same frequencies in the end. Loads of round plates are sums over as many orders as they need, on meshes whose errors
+    in the first orders are a part of the tolerance; should the others add too much, all are solved anew.
 
     Args:
         problem: the open water.
@@ -99,24 +101,26 @@ def solve_spectrum(
     """
     tolerance = tolerance or problem.tolerance
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]
-    while _bends(attempts[-1].result, request, problem.tolerance):
-        # No other analysis asks for these orders: their solvers need not be kept.
-        order = attempts[-1].result.order + 1
-        attempts.append(_curves(replace(problem.of_order(order), solvers={}), request))
+    if any(modes.bends for modes in attempts[0].result.solver.model.plate_modes.values()):
+        meshed = _meshed_loads(problem, request, attempts)
+        if meshed > _OF_MESH * tolerance and (finer := _with_smaller_errors(problem, meshed, tolerance)):
+            return solve_spectrum(finer, request, tolerance)
+        attempts = _further_bent(problem, request, attempts, tolerance)
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
-    curves = [one.result.at(omegas) for one in attempts]
-    table = _table(problem, request, curves)
-    beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
-    highest, finer = request.highest, problem.tolerance
-    if highest is None and beyond > _BEYOND * tolerance:
+    curves = [one.result.at(omegas, problem.tolerance) for one in attempts]
+    table = _table(replace(problem, tolerance=tolerance), request, curves)
+    beyond = table.largest_error("truncation_error")
+    if request.highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
         highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
-    if problem.tank.geometry.is_revolved and table.plates and transfer > _BEYOND * tolerance:
-        # Errors of loads fall at least like the square root of those of waves.
-        finer = max(finer * (0.5 * tolerance / transfer) ** 2, _LEAST * tolerance)
-    if highest != request.highest or finer < problem.tolerance:
-        problem = replace(problem, tolerance=finer, solvers=problem.solvers if finer == problem.tolerance else {})
         return solve_spectrum(problem, replace(request, highest=highest), tolerance)
+    loads = max((one.transfer_error for one in table.plates), default=0.0)
+    if (
+        problem.tank.geometry.is_revolved
+        and loads > tolerance
+        and (finer := _with_smaller_errors(problem, loads, tolerance))
+    ):
+        return solve_spectrum(finer, request, tolerance)
     return SpectrumSolution(
         table=table,
         model=max((one.solver.model for one in curves), key=lambda model: model.pencil.size),
@@ -124,12 +128,33 @@ def solve_spectrum(
     )
 
 
-def _bends(curves: Curves, request: SpectrumRequest, tolerance: float) -> bool:
-    """Whether the waves of an order bend a round plate by more than a part of the tolerance."""
-    model, weights = curves.solver.model, np.sqrt(request.spectrum.density(curves.omegas))
-    bent = [curves.motions[:, modes.own] for modes in model.plate_modes.values() if modes.bends]
-    largest = max((float((np.abs(one).max(axis=1) * weights).max()) for one in bent), default=0.0)
-    return largest > OF_LOADS * tolerance * float(weights.max())
+def _with_smaller_errors(problem: OpenWaterProblem, error: float, tolerance: float) -> OpenWaterProblem | None:
+    """Return the problem with the tolerance of waves that loads of round plates need; ``None`` if it is the least."""
+    # Errors of loads fall at least like the square root of those of waves.
+    finer = max(problem.tolerance * (_FINER * tolerance / error) ** 2, _LEAST * tolerance)
+    return replace(problem, tolerance=finer, solvers={}) if finer < problem.tolerance else None
+
+
+def _meshed_loads(problem: OpenWaterProblem, request: SpectrumRequest, attempts: list[Attempt[Curves]]) -> float:
+    """Relative error that the mesh leaves in the loads of round plates in the first orders (collective)."""
+    common = reduce(np.intersect1d, (one.result.omegas for one in attempts))
+    bent = [bent_in_order(problem.tank, request, one.result, common, with_errors=True) for one in attempts]
+    return meshed_errors(problem.tank, request, common, bent)
+
+
+def _further_bent(
+    problem: OpenWaterProblem, request: SpectrumRequest, attempts: list[Attempt[Curves]], tolerance: float
+) -> list[Attempt[Curves]]:
+    """Transfer functions of the orders in which bodies move, and of as many as loads of round plates need
+    (collective)."""
+    attempts = list(attempts)
+    omegas = reduce(np.intersect1d, (one.result.omegas for one in attempts))
+    bent = [bent_in_order(problem.tank, request, one.result, omegas) for one in attempts]
+    while orders_left_out(problem.tank, request, omegas, bent) > _OF_ORDERS * tolerance:
+        # No other analysis asks for these orders: their solvers need not be kept.
+        attempts.append(_curves(replace(problem.of_order(len(attempts)), solvers={}), request))
+        bent.append(bent_in_order(problem.tank, request, attempts[-1].result, omegas))
+    return attempts
 
 
 def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curves]:
@@ -171,19 +196,31 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
             curves = replace(curves, errors=errors, reduced=curves.errors)
             if problem.tank.geometry.is_revolved:
-                return Attempt(result=curves, causes=joined, resolution=resolution)
+                own = _weighed_error(request, curves)
+                break
             table = _table(problem, request, [curves])
+            units = solver.model.basin.units
+            # The drift force of waves that are reflected in full.
+            reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
+            own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
             if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
                 break
             omegas = curves.omegas
-        units = solver.model.basin.units
-        # The drift force of waves that are reflected in full.
-        reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
         # Waves that carry no energy need no accuracy.
-        own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
         return Attempt(result=curves, causes=joined.scaled(own / joined.largest_total), resolution=resolution)
 
     return best_over_band(problem, band, solve)
+
+
+def _weighed_error(request: SpectrumRequest, curves: Curves) -> float:
+    """Largest relative error of the significant size of waves and of motions of an order, of those of one unit."""
+    ones, models = np.ones(len(curves.omegas)), [curves.solver.model]
+    sizes = ones[:, None]
+    if curves.motions.size:
+        sizes = np.column_stack([ones, motion_errors(models, ones, curves.motions)])
+    deviations = curves.errors[:, None] * sizes
+    told = statistics(request.spectrum, curves.omegas, sizes.astype(complex), deviations, request.duration)
+    return float(told.transfer_error.max())
 
 
 def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Curves]) -> SpectrumTable:
@@ -270,7 +307,7 @@ def _further_orders(problem: OpenWaterProblem, request: SpectrumRequest, omegas:
 
     @cache
     def curves(order: int) -> Curves:
-        own = _curves(fixed.of_order(order), request).result.at(omegas)
+        own = _curves(fixed.of_order(order), request).result.at(omegas, fixed.tolerance)
         chosen = np.searchsorted(own.omegas, omegas)
         return replace(
             own, omegas=omegas, responses=[own.responses[place] for place in chosen], errors=own.errors[chosen]

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import count
 from math import nan
 
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.open_water.basin import extent_of_bodies
 from hydroelastic.fem.open_water.curves import Curves
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders, drift_widths
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.modal.liquid.travelling_waves import travelling_waves
-from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies over the last one, above which the drift force tells how it may change beyond.
 _LAST = 0.7
-# Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
-_DRIFT = 1e-4
+# Part of the tolerance of the mean drift force that waves of the orders left out may contribute, and the least such
+# contribution.
+_LEFT_OUT, _LEAST = 0.25, 1e-5
 
 
 def mean_drift(
@@ -99,24 +100,32 @@ def _drift_of_orders(
     """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
     (collective).
 
-    Orders are added until one scatters no more of the spectrum than `_DRIFT`.
+    Bodies of radius a scatter waves in orders up to ka. The force of each pair of orders is less than that of the last
+    one: orders are added until all those left out contribute less than a part of the tolerance, which is told.
     """
+    wavenumbers, widths = drift_widths(problem.tank, omegas)
+    scattered = wavenumbers * extent_of_bodies(problem.tank)[1]
+    least = max(_LEFT_OUT * problem.tolerance, _LEAST)
     waves: list[np.ndarray] = []
     errors: list[np.ndarray] = []
-    density = request.spectrum.density(omegas)
-    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
-        order = len(waves)
-        if order in known:
-            waves.append(known[order][:, 0])
-            errors.append(certain[order])
+
+    def mean(forces: np.ndarray) -> float:
+        return float(moments(request.spectrum, omegas, np.sqrt(np.abs(forces))[:, None], (0,))[0, 0])
+
+    for order in count():
+        own = None if order in known else further(order)
+        waves.append(
+            known[order][:, 0] if own is None else np.array([one.partial_waves()[0, 0] for one in own.responses])
+        )
+        errors.append(certain[order] if own is None else own.errors)
+        if order < max(1, *known):
             continue
-        own = further(order)
-        waves.append(np.array([one.partial_waves()[0, 0] for one in own.responses]))
-        errors.append(own.errors)
-    layers = two_layers(problem.tank)
-    wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
-    found, uncertain = np.array(waves).T, np.array(errors).T
-    return drift_of_orders(problem.tank, omegas, wavenumbers, found, uncertain, np.zeros_like(uncertain))
+        found, uncertain = np.array(waves).T, np.array(errors).T
+        forces, off = drift_of_orders(widths, found, uncertain, np.zeros_like(uncertain))
+        left_out = np.abs(forces[:, -1]) * np.maximum(scattered - order, 1.0)
+        if mean(left_out) <= least * mean(forces.sum(axis=1)):
+            return forces.sum(axis=1), off.sum(axis=1) + left_out
+    raise AssertionError
 
 
 def mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:

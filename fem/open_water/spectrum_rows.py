@@ -133,16 +133,7 @@ def along_plates(
             (motion[None] / response.per_elevation(towards)[0], drag[None])
             for response, motion in zip(one.responses, part, strict=True)
         ]
-        model = one.solver.model
-        places = estimated_about_peaks(one)
-        known = load_errors(model, [one.responses[place] for place in places])
-        # As errors of the motions, about a resonance they change by orders of magnitude.
-        meshed = {
-            index: np.exp(
-                interp1d(one.omegas[places], np.log(np.maximum(values, np.finfo(float).tiny)), axis=0)(one.omegas)
-            )
-            for index, values in known.items()
-        }
+        model, meshed = one.solver.model, meshed_load_errors(one)
         for index, beam in model.basin.tank.beams.items():
             x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
             along = BeamLoads(model, index, x)
@@ -152,6 +143,19 @@ def along_plates(
     errors = np.max([one.errors for one in curves], axis=0)
     for plates in zip(*parts, strict=True):
         yield along_diameter(tank, joined(list(plates)), errors)
+
+
+def meshed_load_errors(curves: Curves) -> dict[int, np.ndarray]:
+    """Return `load_errors` at all frequencies, shape (n, …) (collective)."""
+    places = estimated_about_peaks(curves)
+    known = load_errors(curves.solver.model, [curves.responses[place] for place in places])
+    # As errors of the motions, about a resonance they change by orders of magnitude.
+    return {
+        index: np.exp(
+            interp1d(curves.omegas[places], np.log(np.maximum(values, np.finfo(float).tiny)), axis=0)(curves.omegas)
+        )
+        for index, values in known.items()
+    }
 
 
 def points_of_plates(

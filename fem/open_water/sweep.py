@@ -58,12 +58,14 @@ class Swept(Generic[Solution]):
         errors: estimated relative errors by the reduced basis, shape (frequencies,); zero for full solutions.
         in_full: whether each solution is a full one.
         ratio: relative error over the square of the residual, with its safety factor.
+        again: returns the same at other frequencies, with further solutions in the basis where they are needed.
     """
 
     solutions: list[Solution]
     errors: np.ndarray
     in_full: list[bool]
     ratio: float
+    again: Callable[[np.ndarray], Swept[Solution]]
 
 
 def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> Swept[Solution]:
@@ -74,12 +76,17 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
         omegas: different frequencies in any order, real or along a line in the complex plane, shape (frequencies,).
         tolerance: largest relative error that is accepted of what `Problem.difference` compares.
     """
+
+    def again(others: np.ndarray) -> Swept[Solution]:
+        return sweep(problem, others, tolerance)
+
     if len(omegas) <= FEW:
         return Swept(
             solutions=[problem.full(complex(omega)) for omega in omegas],
             errors=np.zeros(len(omegas)),
             in_full=[True] * len(omegas),
             ratio=0.0,
+            again=again,
         )
     order = [int(place) for place in np.argsort(np.abs(omegas))]
     full = {place: problem.full(complex(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
@@ -122,4 +129,5 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
         errors=errors,
         in_full=[place in full for place in range(len(omegas))],
         ratio=_SAFETY * max(ratios, default=_NEGLIGIBLE * SHARE * tolerance / max(accurate, np.finfo(float).eps) ** 2),
+        again=again,
     )

@@ -120,8 +120,8 @@ class OpenResponse:
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
         fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each incident one, shape
-            (k, incident), and of motions, shape (k, body unknowns).
+        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape (k, waves),
+            and of motions, shape (k, body unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
         equations: from which the motions follow, without drag.
@@ -140,7 +140,15 @@ class OpenResponse:
     @cached_property
     def scattered(self) -> np.ndarray:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
-        return self.potentials(np.eye(len(self.incident)), self.motions)
+        return self.scattered_by(self.motions)
+
+    def scattered_by(self, motions: np.ndarray) -> np.ndarray:
+        """Return the same with other motions, shape (incident, body unknowns)."""
+        return self.potentials(np.eye(len(self.incidence.planes))[self.incident], motions)
+
+    def radiated_by(self, motions: np.ndarray) -> np.ndarray:
+        """Return ψ of waves that motions of shape (k, body unknowns) radiate, shape (k, free unknowns)."""
+        return self.potentials(np.zeros((len(motions), len(self.incidence.planes))), motions)
 
     @cached_property
     def missed(self) -> np.ndarray:

@@ -9,7 +9,7 @@ from open_cases import problem_of
 
 from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
 from hydroelastic.fem.open_water.hull import hull_pressure
-from hydroelastic.fem.open_water.response import drift_forces
+from hydroelastic.fem.open_water.response_table import drift_forces
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.scenes.models import SeaScene
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, exp, isfinite, pi, sin
@@ -20,7 +21,7 @@ from hydroelastic.fem.open_water.basin import (
     open_basin,
     sized_absorbing_layer,
 )
-from hydroelastic.fem.open_water.complex_scaling import ComplexScaling
+from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, gradient_weights
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.outside import outside_of
@@ -28,7 +29,7 @@ from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.open_water.plate_modes import PlateModes
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
-from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.spectral_error import cell_errors, gradient_coefficients
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, tank_layers, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, tip_points
@@ -145,6 +146,16 @@ class OpenModel:
         return motion_scale(self.basin, self.pencil.bodies)
 
     @cached_property
+    def gradient_coefficients(self) -> Callable[[np.ndarray], list[np.ndarray]]:
+        """Coefficients of ∇ψ in the last degrees, see `spectral_error`."""
+        return gradient_coefficients(self.pencil.liquid)
+
+    @cached_property
+    def gradient_weights(self) -> np.ndarray:
+        """Weights of (∂ᵢψ)² in A in each own cell, see `complex_scaling`, shape (cells, gdim)."""
+        return gradient_weights(self.pencil.liquid, _scaling(self.basin, self.absorbing_layer))
+
+    @cached_property
     def far_field(self) -> FarField:
         """Far-field fluxes, from which the amplitudes of outgoing waves follow (collective)."""
         return FarField(self.pencil, *self.basin.bounds)
@@ -195,7 +206,7 @@ class OpenModel:
 
     def cells_missed(self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT) -> np.ndarray:
         """The same in each own cell, shape (potentials, cells)."""
-        pencil, outside = self.pencil, self._in_absorbing_layer
+        pencil, outside = self.pencil, self.in_absorbing_layer
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, len(outside)).sum(axis=1)
         weighed: np.ndarray = cells * np.where(outside, np.reshape(layer_weight, (-1, 1)), 1.0)
@@ -209,7 +220,8 @@ class OpenModel:
         return away, at_tips
 
     @cached_property
-    def _in_absorbing_layer(self) -> np.ndarray:
+    def in_absorbing_layer(self) -> np.ndarray:
+        """Whether each own cell lies in the absorbing layer, shape (cells,)."""
         mesh = self.pencil.liquid.tank.mesh
         low, high = self.basin.bounds
         middles = cell_corners(mesh, owned_cells(mesh)).mean(axis=1)
@@ -255,6 +267,11 @@ class OpenModel:
             truncation=np.zeros(count),
             rounding=np.full(count, 2.0 * rounding_error(self.resolution.degree, min(tank.depth, 1.0))),
         )
+
+
+def _scaling(basin: OpenBasin, absorbing_layer: AbsorbingLayer) -> ComplexScaling:
+    low, high = basin.bounds
+    return ComplexScaling(angle=absorbing_layer.angle, low=low, high=high)
 
 
 def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float | None = None) -> Resolution:
@@ -313,11 +330,10 @@ def open_model(
     with watch.stage("mesh"):
         mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
-    low, high = basin.bounds
     with watch.stage("assemble"):
         pencil = build_open_pencil(
             liquid,
-            ComplexScaling(angle=absorbing_layer.angle, low=low, high=high),
+            _scaling(basin, absorbing_layer),
             bodies=whole_bodies(tank, resolution.shapes),
             surfaces=moving_surfaces(mesh, tank),
         )

@@ -123,8 +123,9 @@ class OpenResponse:
         potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape (k, waves),
             and of motions, shape (k, body unknowns).
         motions: body unknowns, shape (incident, body unknowns).
-        absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
         equations: from which the motions follow, without drag.
+        damping: of the bodies beyond that of these equations, as by drag, shape (incident, body unknowns, body
+            unknowns).
     """
 
     model: OpenModel
@@ -134,8 +135,8 @@ class OpenResponse:
     fluxes: np.ndarray
     potentials: Callable[[np.ndarray, np.ndarray], np.ndarray]
     motions: np.ndarray
-    absorbed: np.ndarray
     equations: BodyEquations
+    damping: np.ndarray
 
     @cached_property
     def scattered(self) -> np.ndarray:
@@ -158,7 +159,7 @@ class OpenResponse:
     @property
     def reflected(self) -> float:
         """Part of the power of outgoing waves that the ends of the absorbing layer reflect at most."""
-        return self.model.reflected(float(self._wavenumbers.min()))
+        return self.model.reflected(float(self.wavenumbers.min()))
 
     @property
     def scattered_powers(self) -> np.ndarray:
@@ -228,7 +229,7 @@ class OpenResponse:
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.
             return np.zeros(len(self.incident))
-        momenta = 0.5 * self.squared.real * self._towards * self._wavenumbers * self.incidence.powers
+        momenta = self.momenta
         # Waves that leave to the left push to the right.
         force: np.ndarray = momenta[self.incident] - momenta @ np.abs(self.outgoing(motions)) ** 2
         return force
@@ -239,37 +240,25 @@ class OpenResponse:
         wave = self.incidence.planes[self.incident[incident]]
         return self.model.near_field.drift_force(self.squared.real, self.scattered[incident], wave.field)
 
-    def drift_error(self, error: float, motions: np.ndarray | None = None) -> np.ndarray:
-        """Return the error of the drift force, shape (incident,).
-
-        With κ times the balance of power added, F = (λ/2) [(k − κ) P + Σ (κ ∓ kⱼ) Pⱼ|cⱼ|² + κ (power lost)] of incident
-        power P. For one surface κ = k leaves the reflected wave alone, whose R has the relative error of R², κ = −k the
-        transmitted one: the smaller error holds. Where nearly all is reflected F hardly changes with R.
-
-        Args:
-            error: of the amplitudes of outgoing waves, relative to the incident one.
-            motions: see `drift_force`.
-        """
-        if self.incidence.directions == 1:
-            return np.zeros(len(self.incident))
-        powers, towards = self.incidence.powers, self._towards
-        incoming = powers[self.incident]
-        amplitudes = np.abs(self.outgoing(motions))
-        own, other = self._wavenumbers[self.incident], self._wavenumbers[:, None]
-        arms = [np.abs(kappa - np.outer(towards, towards[self.incident]) * other) for kappa in (own, -own)]
-        waves = 2.0 * np.min([(arm * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0) for arm in arms], 0)
-        lost = np.abs(incoming - powers @ amplitudes**2)
-        total: np.ndarray = (waves + 2.0 * own * lost) * error + own * incoming * np.abs(self.energy_residual())
-        return 0.5 * self.squared.real * total
-
     @property
-    def _wavenumbers(self) -> np.ndarray:
+    def wavenumbers(self) -> np.ndarray:
+        """Of each wave, in units of the basin, shape (waves,)."""
         return np.array([plane.wave.wavenumber for plane in self.incidence.planes])
 
     @property
-    def _towards(self) -> np.ndarray:
-        """1 of waves to the right, −1 of those to the left, shape (waves,)."""
-        return np.array([plane.direction for plane in self.incidence.planes if isinstance(plane, Plane)])
+    def momenta(self) -> np.ndarray:
+        """½λ(±k)P, by which each wave of a section carries momentum to the right, per |c|², shape (waves,)."""
+        towards = np.array([plane.direction for plane in self.incidence.planes if isinstance(plane, Plane)])
+        momenta: np.ndarray = 0.5 * self.squared.real * towards * self.wavenumbers * self.incidence.powers
+        return momenta
+
+    @property
+    def absorbed(self) -> np.ndarray:
+        """aᴴBa/ω, the power that all damping from outside takes over ½ω³, shape (incident,)."""
+        damping = self.model.outside.damping + self.damping
+        taken = np.einsum("wi,wij,wj->w", self.motions.conj(), damping, self.motions).real
+        absorbed: np.ndarray = taken / np.sqrt(self.squared.real)
+        return absorbed
 
     @property
     def absorption(self) -> np.ndarray:

@@ -30,10 +30,8 @@ from scipy.special import jv, jvp
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
-from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
-from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.modal.liquid.travelling_waves import TravellingWave
 from hydroelastic.physics.geometry import Geometry
-from hydroelastic.physics.tank import Tank
 
 RIGHTWARD, LEFTWARD = 1, -1
 
@@ -139,41 +137,6 @@ def incident_waves(waves: tuple[TravellingWave, ...], geometry: Geometry) -> lis
 def direction_of(waves_from: Literal["left", "right"]) -> int:
     """Return the direction of waves from a side: `RIGHTWARD` or `LEFTWARD`."""
     return RIGHTWARD if waves_from == "left" else LEFTWARD
-
-
-def drift_of_orders(
-    tank: Tank,
-    omega: np.ndarray,
-    wavenumber: np.ndarray,
-    waves: np.ndarray,
-    errors: np.ndarray,
-    residuals: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean force along the waves per square of their amplitude, N/m², and its error, each of shape (n,).
-
-    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
-    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation. With the power lost in an
-    order, Re aₙ + |aₙ|², the terms are those of −|aₙ − aₙ₊₁|², which tell the error.
-
-    Args:
-        tank: the open water, with waves on one level.
-        omega: rad/s, shape (n,).
-        wavenumber: k, 1/m, shape (n,).
-        waves: aₙ of the orders from 0 on, shape (n, orders).
-        errors: of aₙ, shape (n, orders).
-        residuals: of the energy over the incident power, shape (n, orders).
-    """
-    layers = two_layers(tank)
-    own, following = waves[:, :-1], waves[:, 1:]
-    momenta = []
-    for one in omega:
-        (wave,) = travelling_waves(layers, float(one))
-        momenta.append(0.5 * one**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
-    widths = 4.0 / wavenumber * np.array(momenta)
-    lost = 2.0 * errors * np.abs(waves.real + np.abs(waves) ** 2) + 0.25 * np.abs(residuals)
-    off = 2.0 * np.abs(own - following) * (errors[:, 1:] + errors[:, :-1]) + lost[:, 1:] + lost[:, :-1]
-    force: np.ndarray = -widths * (own + following + 2.0 * own * following.conj()).real.sum(axis=1)
-    return force, widths * off.sum(axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)

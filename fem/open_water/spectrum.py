@@ -24,7 +24,8 @@ from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularRespo
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
+from hydroelastic.fem.open_water.response import incident_places, outcome
+from hydroelastic.fem.open_water.response_errors import response_errors
 from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
@@ -217,7 +218,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
     damping_unit = units.density * units.gravity * units.volume * units.length / units.frequency
-    drift, drift_error = mean_drift(problem, request, curves, motions, further)
+    drift, drift_error = mean_drift(problem, request, curves, motions, damping, further)
     responses = tuple(
         IrregularResponse(
             quantity=name,

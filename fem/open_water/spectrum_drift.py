@@ -9,9 +9,12 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.curves import Curves
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders
+from hydroelastic.fem.open_water.drift_errors import drift_errors
+from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, wave_errors
+from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import SpectrumRequest
+from hydroelastic.fem.open_water.spectrum_rows import estimated_about_peaks
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.irregular_waves import moments, statistics
@@ -27,6 +30,7 @@ def mean_drift(
     request: SpectrumRequest,
     curves: list[Curves],
     motions: np.ndarray,
+    damping: np.ndarray,
     further: Callable[[int], Curves],
 ) -> tuple[float, float]:
     """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
@@ -36,6 +40,7 @@ def mean_drift(
         request: the request.
         curves: the transfer functions of the orders that move.
         motions: per elevation, with the damping in place of drag, shape (n, unknowns).
+        damping: in place of drag, shape (unknowns, unknowns).
         further: gives the waves of orders that do not move.
     """
     omegas, towards = curves[0].omegas, direction_of(request.waves_from)
@@ -60,22 +65,15 @@ def mean_drift(
             request,
             omegas,
             known,
-            {own.order: own.errors for own in curves},
+            {own.order: own for own in curves},
             further,
         )
     else:
-        units = curves[0].solver.model.basin.units
-        forces, errors = (
-            units.density
-            * units.gravity
-            * np.array(
-                [
-                    np.hstack([one.drift_force(part), one.drift_error(float(error), part)])
-                    * abs(one.per_elevation(towards)[0]) ** 2
-                    for one, part, error in zip(curves[0].responses, parts[0], curves[0].errors, strict=True)
-                ]
-            ).T
-        )
+        (own,), (moved,) = curves, parts
+        units = own.solver.model.basin.units
+        scales = units.density * units.gravity * np.array([abs(one.per_elevation(towards)[0]) ** 2 for one in own.responses])
+        forces = scales * [one.drift_force(part)[0] for one, part in zip(own.responses, moved, strict=True)]
+        errors = scales * drift_errors(own.responses, omegas, estimated_about_peaks(own), own.reduced, damping)[:, 0]
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
     roots = np.sqrt(np.abs(forces))[:, None]
     deviations = np.sqrt(roots**2 + errors[:, None]) - roots
@@ -93,7 +91,7 @@ def _drift_of_orders(
     request: SpectrumRequest,
     omegas: np.ndarray,
     known: dict[int, np.ndarray],
-    certain: dict[int, np.ndarray],
+    moving: dict[int, Curves],
     further: Callable[[int], Curves],
 ) -> tuple[np.ndarray, np.ndarray]:
     """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
@@ -106,17 +104,15 @@ def _drift_of_orders(
     density = request.spectrum.density(omegas)
     while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
         order = len(waves)
-        if order in known:
-            waves.append(known[order][:, 0])
-            errors.append(certain[order])
-            continue
-        own = further(order)
-        waves.append(np.array([one.partial_waves()[0, 0] for one in own.responses]))
-        errors.append(own.errors)
+        own = moving.get(order) or further(order)
+        found = known.get(order)
+        waves.append(np.array([one.partial_waves()[0, 0] for one in own.responses]) if found is None else found[:, 0])
+        errors.append(wave_errors(own.responses, omegas, estimated_about_peaks(own), own.reduced))
     layers = two_layers(problem.tank)
     wavenumbers = np.array([travelling_waves(layers, float(omega))[0].wavenumber for omega in omegas])
-    found, uncertain = np.array(waves).T, np.array(errors).T
-    return drift_of_orders(problem.tank, omegas, wavenumbers, found, uncertain, np.zeros_like(uncertain))
+    scattered = np.array(waves).T
+    uncertain = np.stack(errors, axis=1)
+    return drift_of_orders(problem.tank, omegas, wavenumbers, scattered, uncertain, np.zeros(scattered.shape))
 
 
 def mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:

@@ -9,8 +9,8 @@ wave φ from the opposite side scatters. So, to first order in the error,
 one dual solution for all of F, in which errors of reflected and transmitted waves cancel as they do in F.
 
 It is bounded by `product_errors`. Beside it are the part r of the power that the ends of the absorbing layer
-reflect, of the powers P_z and P_ψ that z and ψ radiate r √(P_z P_ψ); omitted dry modes, of deflections w_z and w_ψ, by
-less than K w_z w_ψ/λ with the stiffness K of the last mode in use; and the relative errors of the reduced basis, of
+reflect, of the powers P_z and P_ψ that z and ψ radiate r √(P_z P_ψ); omitted dry modes with the
+stiffnesses Kₙ by less than Σ Kₙ|aₙ(z) aₙ(ψ)|/λ; and the relative errors of the reduced basis, of
 curved boundaries and of rounding. Between frequencies the error over √(P_z P_ψ) is interpolated.
 """
 
@@ -23,7 +23,7 @@ from functools import cached_property
 import numpy as np
 
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.omitted_modes import omitted_deflection
+from hydroelastic.fem.open_water.omitted_modes import omitted_energy
 from hydroelastic.fem.open_water.product_errors import product_errors
 from hydroelastic.fem.open_water.radiation import between
 from hydroelastic.fem.open_water.response_errors import unmeshed_error
@@ -88,8 +88,7 @@ class DualOfDrift:
         found = float(product_errors(response.model, dual[None], own[None])[0])
         pair = replace(response, motions=motions)
         for index in response.model.basin.tank.beams:
-            stiffness = float(response.model.pencil.bodies[index].stiffness[-1])
-            found += stiffness / response.squared.real * float(np.prod(omitted_deflection(pair, index)))
+            found += float(np.prod(omitted_energy(pair, index))) / response.squared.real
         return found / max(self.power, _LEAST) + response.reflected
 
     def of_waves(self, error: float) -> float:

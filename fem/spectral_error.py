@@ -150,9 +150,7 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
         squares = np.empty((*values.shape[:2], sizes[-1]))
         for some, coefficients in parts(values):
             squares[:, some] = np.square(coefficients).sum(axis=2).transpose(2, 0, 1)
-        return [
-            squares[:, :, first:last].sum(axis=2) for first, last in zip(sizes[-2::-1], sizes[:0:-1], strict=True)
-        ]
+        return [squares[:, :, first:last].sum(axis=2) for first, last in zip(sizes[-2::-1], sizes[:0:-1], strict=True)]
 
     return energies
 

@@ -1,17 +1,17 @@
 """Errors of the mean drift force, by the dual problem of each wave that leaves.
 
-Of sections F = mᵢ − Σ mⱼ|cⱼ|², mⱼ = ±½λkⱼPⱼ, see `OpenResponse.drift_force`. The problem of bodies and liquid is complex
-symmetric, and the amplitude cⱼ = i I(φ)/(2Pⱼ) is a functional of the field whose dual solution is the wave ψ_φ that the
-wave φ from the opposite side scatters. So, to first order in the error,
+Of sections F = mᵢ − Σ mⱼ|cⱼ|², mⱼ = ±½λkⱼPⱼ, see `OpenResponse.drift_force`. The problem of bodies and liquid is
+complex symmetric, and the amplitude cⱼ = i I(φ)/(2Pⱼ) is a functional of the field whose dual solution is the wave ψ_φ
+that the wave φ from the opposite side scatters. So, to first order in the error,
 
     δF = −2 Re Σ mⱼ c̄ⱼ δcⱼ = Re A_λ(z − z_h, ψ − ψ_h),    z = −i Σ mⱼ c̄ⱼ ψ_φ / Pⱼ :
 
 one dual solution for all of F, in which errors of reflected and transmitted waves cancel as they do in F.
 
-It is bounded by `product_errors`. Beside it are the part r of the power that the ends of the absorbing layer
-reflect, of the powers P_z and P_ψ that z and ψ radiate r √(P_z P_ψ); omitted dry modes with the
-stiffnesses Kₙ by less than Σ Kₙ|aₙ(z) aₙ(ψ)|/λ; and the relative errors of the reduced basis, of
-curved boundaries and of rounding. Between frequencies the error over √(P_z P_ψ) is interpolated.
+It is bounded by `product_errors`. Beside it are the part r of the power that the ends of the absorbing layer reflect,
+r √(P_z P_ψ) with the powers that z and ψ radiate; omitted dry modes of stiffness Kₙ, less than Σ Kₙ|aₙ(z) aₙ(ψ)|/λ; and
+the relative errors of the reduced basis, of curved boundaries and of rounding. At frequencies without a dual solution
+the error over √(P_z P_ψ) is the larger one of both neighbours.
 """
 
 from __future__ import annotations
@@ -76,9 +76,8 @@ class DualOfDrift:
     @cached_property
     def power(self) -> float:
         """√(P_z P_ψ)."""
-        powers = self.response.incidence.powers
-        own = (np.abs(amplitudes) ** 2 @ powers for amplitudes in (self.scattered @ self.parts, self.scattered[:, self.wave]))
-        return float(np.sqrt(np.prod(list(own))))
+        both = np.stack([self.scattered @ self.parts, self.scattered[:, self.wave]])
+        return float(np.sqrt(np.prod(np.abs(both) ** 2 @ self.response.incidence.powers)))
 
     def missed(self) -> float:
         """Return the error by the mesh, the absorbing layer and omitted dry modes over √(P_z P_ψ) (collective)."""

@@ -120,8 +120,8 @@ class OpenResponse:
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
         fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape (k, waves),
-            and of motions, shape (k, body unknowns).
+        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape
+            (k, waves), and of motions, shape (k, body unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         equations: from which the motions follow, without drag.
         damping: of the bodies beyond that of these equations, as by drag, shape (incident, body unknowns, body

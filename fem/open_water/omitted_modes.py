@@ -39,7 +39,7 @@ def omitted_deflection(solution: OpenResponse, index: int) -> np.ndarray:
     Shapes of a uniform beam with free ends, whose fourth derivative is κ⁴W, take parts of a smooth load that fall
     like κ⁻²: their amplitudes fall like κ⁻⁶, κₙ l = (n − ½)π, in even and in odd ones alike. |W| = 2 at the ends.
     """
-    model, tank, count = solution.model, solution.model.basin.tank, solution.model.pencil.bodies[index].size
+    tank, count = solution.model.basin.tank, solution.model.pencil.bodies[index].size
     last = _last_amplitudes(solution, index)
     if not tank.beams[index].is_uniform:
         tail = _TAIL * count * last.max(axis=1)

@@ -1,16 +1,16 @@
 """Errors of functionals of waves, from products of what the mesh misses of a wave and of its dual solution.
 
-The Galerkin method changes a functional of ψ with the dual solution z by A_λ(z − z_h, ψ − ψ_h), see `functional_errors`:
-of both functions only the parts of higher degree are left. In each cell |A_λ| ≤ √(E_z E_ψ) with the missed energies E
-of `spectral_error`; but where z and ψ are of different phase, or orthogonal to each other, far less is left of the
-product. As the missed energy follows from that in the last degrees which are there, the missed product follows from
-that in the two last ones: with the coefficients of both gradients there
+The Galerkin method changes a functional of ψ with the dual solution z by A_λ(z − z_h, ψ − ψ_h), see
+`functional_errors`: of both functions only the parts of higher degree are left. In each cell |A_λ| ≤ √(E_z E_ψ) with
+the missed energies E of `spectral_error`; but where z and ψ are of different phase, or orthogonal to each other, far
+less is left of the product. As the missed energy follows from that in the last degrees which are there, the missed
+product follows from that in the two last ones: with the coefficients of both gradients there
 
-    |A_λ(z − z_h, ψ − ψ_h)| ≈ √(E_z E_ψ) |Re Σ sᵢ zᵢψᵢ| / √(Σ|sᵢ zᵢ²| Σ|sᵢ ψᵢ²|),    sᵢ = ρ (det/sᵢ²) w of the complex scaling.
+    |A_λ(z − z_h, ψ − ψ_h)| ≈ √(E_z E_ψ) |Re Σ wᵢ zᵢψᵢ| / √(Σ|wᵢ zᵢ²| Σ|wᵢ ψᵢ²|),
 
-In the absorbing layer, where ψ oscillates, the phase of the products turns from degree to degree, and their modulus
-counts. There an outgoing wave e^{ikx̃ + ky} has (∂ψ/∂x̃)² + (∂ψ/∂y)² = 0: of the energy that the layer misses hardly
-anything reaches the waves.
+weighted by wᵢ = ρ (det/sᵢ²) w of `complex_scaling`. In the absorbing layer, where ψ oscillates, the phase of the
+products turns from degree to degree, and their modulus counts. There an outgoing wave e^{ikx̃ + ky} has
+(∂ψ/∂x̃)² + (∂ψ/∂y)² = 0: of the energy that the layer misses hardly anything reaches the waves.
 """
 
 from __future__ import annotations

@@ -182,5 +182,3 @@ def outcome(solution: OpenResponse) -> np.ndarray:
     incident = elevations[solution.incident]
     waves = solution.outgoing() * elevations[:, None] / incident
     return np.vstack([waves, (solution.motions / incident[:, None]).T])
-
-

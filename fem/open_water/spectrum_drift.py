@@ -71,7 +71,9 @@ def mean_drift(
     else:
         (own,), (moved,) = curves, parts
         units = own.solver.model.basin.units
-        scales = units.density * units.gravity * np.array([abs(one.per_elevation(towards)[0]) ** 2 for one in own.responses])
+        scales = np.array(
+            [units.density * units.gravity * abs(one.per_elevation(towards)[0]) ** 2 for one in own.responses]
+        )
         forces = scales * [one.drift_force(part)[0] for one, part in zip(own.responses, moved, strict=True)]
         errors = scales * drift_errors(own.responses, omegas, estimated_about_peaks(own), own.reduced, damping)[:, 0]
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.

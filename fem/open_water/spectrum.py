@@ -28,7 +28,7 @@ from hydroelastic.fem.open_water.response import incident_places, outcome
 from hydroelastic.fem.open_water.response_errors import response_errors
 from hydroelastic.fem.open_water.round_plates import OF_LOADS
 from hydroelastic.fem.open_water.solver import shared_solver
-from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
+from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power, reflected_drift
 from hydroelastic.fem.open_water.spectrum_rows import (
     air_gaps_of_plates,
     along_plates,
@@ -108,6 +108,7 @@ def solve_spectrum(
     curves = [one.result.at(omegas) for one in attempts]
     table = _table(problem, request, curves)
     beyond, transfer = (table.largest_error(f"{cause}_error") for cause in ("truncation", "transfer"))
+    beyond = max(beyond, np.nan_to_num(table.mean_drift_truncation) / reflected_drift(problem.tank, request.spectrum))
     highest, finer = request.highest, problem.tolerance
     if highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
@@ -177,11 +178,9 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
             if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
                 break
             omegas = curves.omegas
-        units = solver.model.basin.units
-        # The drift force of waves that are reflected in full.
-        reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
+        drift = table.mean_drift_error - table.mean_drift_truncation
         # Waves that carry no energy need no accuracy.
-        own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
+        own = max(table.largest_error("transfer_error"), drift / reflected_drift(problem.tank, request.spectrum))
         return Attempt(result=curves, causes=joined.scaled(own / joined.largest_total), resolution=resolution)
 
     return best_over_band(problem, band, solve)
@@ -218,7 +217,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
     damping_unit = units.density * units.gravity * units.volume * units.length / units.frequency
-    drift, drift_error = mean_drift(problem, request, curves, motions, damping, further)
+    drift = mean_drift(problem, request, curves, motions, damping, further)
     responses = tuple(
         IrregularResponse(
             quantity=name,
@@ -247,8 +246,9 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         relative_error=errors,
         responses=responses,
         dofs=dofs,
-        mean_drift_force=drift,
-        mean_drift_error=drift_error,
+        mean_drift_force=drift.force,
+        mean_drift_error=drift.error + drift.truncation,
+        mean_drift_truncation=drift.truncation,
         mean_absorbed_power=mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * damping_unit)[np.ix_(order, order)],
         plates=tuple(

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import nan
 
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.open_water.basin import extent_of_bodies
 from hydroelastic.fem.open_water.curves import Curves
 from hydroelastic.fem.open_water.drift_errors import drift_errors
 from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, wave_errors
@@ -18,11 +20,28 @@ from hydroelastic.fem.open_water.spectrum_rows import estimated_about_peaks
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.irregular_waves import moments, statistics
+from hydroelastic.physics.tank import Tank
+from hydroelastic.physics.wave_spectrum import WaveSpectrum
 
 # Frequencies over the last one, above which the drift force tells how it may change beyond.
 _LAST = 0.7
 # Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
 _DRIFT = 1e-4
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeanDrift:
+    """The mean drift force along x in irregular waves, N/m, or of solids N; NaN about an axis in waves on two levels.
+
+    Attributes:
+        force: its mean.
+        error: by its values at the frequencies and by their distances.
+        truncation: error by the waves beyond the last frequency.
+    """
+
+    force: float
+    error: float
+    truncation: float
 
 
 def mean_drift(
@@ -32,8 +51,8 @@ def mean_drift(
     motions: np.ndarray,
     damping: np.ndarray,
     further: Callable[[int], Curves],
-) -> tuple[float, float]:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
+) -> MeanDrift:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω (collective).
 
     Args:
         problem: the open water.
@@ -55,7 +74,7 @@ def mean_drift(
     ]
     if problem.tank.geometry.is_revolved:
         if len(curves[0].responses[0].incidence.planes) > 1:
-            return nan, nan
+            return MeanDrift(force=nan, error=nan, truncation=nan)
         known = {
             own.order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
             for own, each in zip(curves, parts, strict=True)
@@ -84,8 +103,18 @@ def mean_drift(
     tail, last = 2.0 * request.spectrum.tail(omegas[-1], 0), np.abs(forces[omegas >= _LAST * omegas[-1]])
     within = 2.0 * float(told.moments[0, 0])
     # Of an amplitude, the relative error is half of that of its square.
-    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + tail * float(np.ptp(last))
-    return towards * (within + tail * float(last[-1])), error
+    return MeanDrift(
+        force=towards * (within + tail * float(last[-1])),
+        error=2.0 * float((told.sampling_error + told.transfer_error)[0]) * within,
+        truncation=tail * float(np.ptp(last)),
+    )
+
+
+def reflected_drift(tank: Tank, spectrum: WaveSpectrum) -> float:
+    """Return the mean drift force of waves that are reflected in full in deep water, N/m, or of solids N."""
+    layer = tank.layers[0]
+    width = 2.0 * extent_of_bodies(tank)[1] if tank.geometry.is_whole else 1.0
+    return layer.density * tank.gravity * spectrum.significant_height**2 / 16.0 * width
 
 
 def _drift_of_orders(

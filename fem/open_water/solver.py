@@ -8,9 +8,10 @@ import numpy as np
 from scipy.linalg import eig, eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, incident_waves
+from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch

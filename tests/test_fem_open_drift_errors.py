@@ -77,20 +77,20 @@ def solved(body: dict[str, Any], depth: float, analysis: dict[str, Any], toleran
     return solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
 
 
-@pytest.mark.slow_but("barge over a bed", "wedge over a bed", "plate over a bed", "cylinder over a bed")
+@pytest.mark.slow_but("barge over a bed", "wedge over a bed", "cylinder over a bed")
 @pytest.mark.parametrize("name", BODIES)
 def test_errors_of_the_drift_are_not_too_small_and_not_far_too_large(name: str) -> None:
     """Where an error changes its sign with the mesh it may be as small as it likes: the upper bound is that of the
-    geometric mean over frequencies and tolerances. By the energies of the absorbing layer, or by errors of waves alone,
-    it is 20 to 10⁴."""
+    geometric mean over frequencies and tolerances. By errors of the waves, which hold the energies that the absorbing
+    layer misses, estimates of spheres are 100 to 50,000 times the error."""
     body, depth, omega, known = BODIES[name]
     ratios = []
     for tolerance in TOLERANCES:
         (table,) = solved(body, depth, {"kind": "response", "omega": omega}, tolerance).response
         ratios += [*(table.drift_error[:, 0] / np.abs(table.drift_force[:, 0] - known))]
-    # Measured: at least 1.5; means 2 to 21, of the circle in deep water 23 and of the sphere 45.
+    # Measured: at least 1.5; means over a bed 2 to 18, in deep water up to 23 and of the sphere 45.
     assert min(ratios) > 1.0
-    assert np.exp(np.log(ratios).mean()) < 60.0
+    assert np.exp(np.log(ratios).mean()) < (60.0 if depth == inf else 30.0)
 
 
 @pytest.mark.slow

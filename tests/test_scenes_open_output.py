@@ -267,6 +267,5 @@ def test_a_spectrum_of_a_beam_without_points_is_written_and_printed(tmp_path: Pa
     )
     solution = solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
     write_open_csv(solution, tmp_path)
-    rows = list(csv.DictReader((tmp_path / "spectrum.csv").open()))
-    assert len(rows) == len(solution.spectrum[0].omega)
-    assert "Mean drift force" in printed(solution)
+    assert len(rows_of(tmp_path / "spectrum.csv")) == len(solution.spectrum[0].omega)
+    assert "Mean drift force" in printed_open(solution, summary_of(solution))

@@ -77,6 +77,8 @@ def solved(body: dict[str, Any], depth: float, analysis: dict[str, Any], toleran
     return solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
 
 
+@pytest.mark.mpi
+@pytest.mark.slow_on_ranks_but("barge over a bed", "cylinder over a bed")
 @pytest.mark.slow_but("barge over a bed", "wedge over a bed", "cylinder over a bed")
 @pytest.mark.parametrize("name", BODIES)
 def test_errors_of_the_drift_are_not_too_small_and_not_far_too_large(name: str) -> None:

@@ -14,7 +14,7 @@ the s_k of every other degree are small, and pairs of them are compared instead.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from math import comb
 
@@ -124,8 +124,53 @@ def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], n
     return coefficients, starts
 
 
+def gradient_coefficients(liquid: LiquidSpace) -> Callable[[np.ndarray], list[np.ndarray]]:
+    """Return `straight_coefficients`, or the same on curved cells: of each axis in turn."""
+    if is_straight(liquid.tank.mesh):
+        straight, starts = straight_coefficients(liquid)
+
+        def by_degree(values: np.ndarray) -> list[np.ndarray]:
+            split = np.split(straight(values), starts, axis=-1)
+            # In full, because −1 stands for nothing where a process has no cells.
+            return [part.reshape(*values.shape[:2], part.shape[2] * part.shape[3]) for part in split]
+
+        return by_degree
+    parts, sizes = _curved_parts(liquid)
+
+    def coefficients(values: np.ndarray) -> list[np.ndarray]:
+        whole = np.concatenate([found for _, found in parts(values)]) if values.shape[1] else np.zeros((0, 0, 0, 0))
+        count, dim = sizes[-1], liquid.tank.mesh.topology.dim
+        turned = whole.reshape(values.shape[1], count, dim, len(values)).transpose(3, 0, 2, 1)
+        return [
+            turned[..., first:last].reshape(*values.shape[:2], dim * (last - first))
+            for first, last in zip(sizes[-2::-1], sizes[:0:-1], strict=True)
+        ]
+
+    return coefficients
+
+
 def _curved_energies(liquid: LiquidSpace) -> Energies:
-    """On curved cells √(det J) ∇ψ is nearly one, and its coefficients come from quadrature; ∫|∇ψ|² stays exact."""
+    parts, sizes = _curved_parts(liquid)
+
+    def energies(values: np.ndarray) -> list[np.ndarray]:
+        squares = np.empty((*values.shape[:2], sizes[-1]))
+        for some, coefficients in parts(values):
+            squares[:, some] = np.square(coefficients).sum(axis=2).transpose(2, 0, 1)
+        return [squares[:, :, first:last].sum(axis=2) for first, last in zip(sizes[-2::-1], sizes[:0:-1], strict=True)]
+
+    return energies
+
+
+def _curved_parts(
+    liquid: LiquidSpace,
+) -> tuple[Callable[[np.ndarray], Iterator[tuple[slice, np.ndarray]]], list[int]]:
+    """On curved cells √(det J) ∇ψ is nearly a polynomial, and its coefficients come from quadrature; ∫|∇ψ|² stays
+    exact.
+
+    Returns:
+        From values of ψ in each cell to those in some cells at a time, shape (cells, coefficients, dim, potentials),
+        and where the coefficients of the degrees p − 4 … p − 1 begin, with their number.
+    """
     mesh = liquid.tank.mesh
     element = liquid.space.element.basix_element
     points, weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + CURVED_QUADRATURE)
@@ -137,8 +182,7 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
     lowest = sizes[liquid.degree - 4]
     weighted = (polynomials * weights)[lowest:]
 
-    def energies(values: np.ndarray) -> list[np.ndarray]:
-        squares = np.empty((*values.shape[:2], len(weighted)))
+    def parts(values: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
         for first in range(0, values.shape[1], _AT_ONCE):
             some = slice(first, first + _AT_ONCE)
             own, turned = values[:, some].transpose(1, 2, 0), scaled[some]
@@ -151,12 +195,9 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
                 reference = slopes.reshape(-1, slopes.shape[2]) @ own
                 fields = np.einsum("cqde,cdqm->cqem", turned, reference.reshape(cells, -1, count, len(values)))
                 found = weighted @ fields.reshape(cells, count, -1)
-            coefficients = found.reshape(cells, len(weighted), -1, len(values))
-            squares[:, some] = np.square(coefficients).sum(axis=2).transpose(2, 0, 1)
-        degrees = range(liquid.degree - 1, liquid.degree - 5, -1)
-        return [squares[:, :, sizes[k] - lowest : sizes[k + 1] - lowest].sum(axis=2) for k in degrees]
+            yield some, found.reshape(cells, len(weighted), -1, len(values))
 
-    return energies
+    return parts, [size - lowest for size in sizes[liquid.degree - 4 : liquid.degree + 1]]
 
 
 def _polynomials(cell_type: basix.CellType, degree: int, points: np.ndarray) -> tuple[np.ndarray, list[int]]:

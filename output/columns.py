@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -69,7 +70,9 @@ def columns_of(
         flat = {}
         for part in parts:
             own = [sizes[name] if name in part.dimensions else 1 for name in rows]
-            flat[part] = np.broadcast_to(arrays[part].reshape(*own, *beyond), (*shape, *beyond)).reshape(-1, *beyond)
+            whole = np.broadcast_to(arrays[part].reshape(*own, *beyond), (*shape, *beyond))
+            # In full, because −1 stands for nothing where there is no place beyond the rows.
+            flat[part] = whole.reshape(prod(shape), *beyond)
         places = list(np.ndindex(*beyond))
         order = (
             [(at, part) for at in places for part in flat]

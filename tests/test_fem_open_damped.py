@@ -11,8 +11,9 @@ from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega
 from open_tables import open_scene
 
 from hydroelastic.fem.open_water.damped import DampedSolver, mirror_angle
-from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.incident_waves import Plane, Standing
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.solve import resonance_reasons

@@ -7,9 +7,10 @@ import pytest
 from float_scenes import BARGE
 from open_cases import problem_of
 
-from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.hull import hull_pressure
-from hydroelastic.fem.open_water.response import drift_forces
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
+from hydroelastic.fem.open_water.response_table import drift_forces
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.scenes.models import SeaScene
 

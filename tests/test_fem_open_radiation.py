@@ -31,7 +31,7 @@ from open_plates import rigid_radiation
 from open_two_liquids import TwoLiquids
 
 from hydroelastic.fem.open_water import basin as open_basin
-from hydroelastic.fem.open_water import field_model as open_model
+from hydroelastic.fem.open_water import model_building as open_model
 from hydroelastic.fem.open_water.radiation import RadiationSolution
 from hydroelastic.modal.floats.thin_float_radiation import thin_float_radiation
 from hydroelastic.physics.profiles import float_profile

@@ -12,7 +12,8 @@ from open_cases import problem_of, section, slender, stored, two_liquids
 from open_tables import open_scene
 
 from hydroelastic.fem.open_water.basin import OpenBasin, open_basin, sized_absorbing_layer
-from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_mesh
+from hydroelastic.fem.open_water.field_model import Band
+from hydroelastic.fem.open_water.model_building import first_resolution, open_mesh
 from hydroelastic.meshes.geometry import (
     BOTTOM,
     FAR_END,

@@ -36,6 +36,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.run import run_open
+from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.run import study_scene
 from hydroelastic.scenes.tank.run import compare_tank
@@ -252,3 +253,19 @@ def test_python_refuses_the_same() -> None:
     for refused in (compare_tank, study_scene):
         with pytest.raises(SceneError, match="closed tanks"):
             refused(open_scene())  # type: ignore[operator]
+
+
+def test_a_spectrum_of_a_beam_without_points_is_written_and_printed(tmp_path: Path) -> None:
+    """No response has a column, and the mean drift force is told with the loads."""
+    sea = {"kind": "spectrum", "significant_height": 1.0, "peak_period": 6.0, "highest_omega": 1.5}
+    scene = open_scene(
+        {"length": 20.0, "flexural_rigidity": 1e8, "mass_per_length": 500.0, "start": 0.0},
+        liquids=({"density": 1000.0, "depth": 5.0},),
+        length=20.0,
+        analyses=[sea],
+        accuracy={"tolerance": 0.05},
+    )
+    solution = solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
+    write_open_csv(solution, tmp_path)
+    assert len(rows_of(tmp_path / "spectrum.csv")) == len(solution.spectrum[0].omega)
+    assert "Mean drift force" in printed_open(solution, summary_of(solution))

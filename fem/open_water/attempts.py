@@ -7,7 +7,8 @@ from typing import TypeVar
 
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import Band, first_resolution
+from hydroelastic.fem.open_water.field_model import Band
+from hydroelastic.fem.open_water.model_building import first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
 from hydroelastic.fem.tank.resolution import Resolution

@@ -100,7 +100,7 @@ class BeamLoads:
         """
         own, squared = motions[:, self._own], response.squared.real
         waves = [response.incidence.planes[place] for place in response.incident]
-        total = response.potentials(np.eye(len(waves)), motions)
+        total = response.scattered_by(motions)
         shear, moment = (
             squared * (self._water.of_potentials(total) + self._water.of_waves(waves))
             + self._moved(squared, motions)
@@ -122,7 +122,7 @@ class BeamLoads:
             omitted: largest deflection in the omitted dry modes, shape (incident,).
         """
         squared, unit = response.squared.real, np.eye(response.motions.shape[1])
-        radiated = response.potentials(np.zeros((len(unit), len(response.incident))), unit)
+        radiated = response.radiated_by(unit)
         undamped = np.zeros((len(unit), len(self._model.outside.drag)))
         loads = (
             squared * self._water.of_potentials(radiated)

@@ -61,5 +61,5 @@ def _pressures(modes: PlateModes, response: OpenResponse, motions: np.ndarray) -
     """∫ρΨ on all modes of all waves, shape (incident, modes)."""
     surface, waves = modes.surface, [response.incidence.planes[place] for place in response.incident]
     given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
-    scattered = response.model.pencil.products(response.potentials(np.eye(len(motions)), motions), modes.loads)
+    scattered = response.model.pencil.products(response.scattered_by(motions), modes.loads)
     return surface.integrals(given, surface.shapes) + scattered

@@ -122,6 +122,17 @@ def _turned(abscissas: np.ndarray, edge: float, s: complex) -> np.ndarray:
     return np.asarray(edge + s * (abscissas - edge))
 
 
+def gradient_weights(liquid: LiquidSpace, scaling: ComplexScaling) -> np.ndarray:
+    """Return ρ (det/sᵢ²) w of the terms (∂ᵢψ)² of A in the middle of each owned cell, complex, shape (cells, gdim)."""
+    mesh, s = liquid.tank.mesh, np.exp(1j * scaling.angle)
+    cells = owned_cells(mesh)
+    turned = scaling.turned(mesh)[cells].astype(float)
+    middles = cell_corners(mesh, cells)[..., 0].mean(axis=1)
+    radii = np.where(turned[:, 0] > 0.0, _turned(middles, scaling.high[0], s), middles)
+    factors = s ** (turned.sum(axis=1, keepdims=True) - 2.0 * turned)
+    return np.asarray((liquid.cell_densities() * liquid.geometry.weight(radii))[:, None] * factors)
+
+
 def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:
     """Return the product of a complex matrix and a complex vector of own entries, shape (own rows,) (collective)."""
     real, imaginary = (_real_product(part, vector) for part in (matrix.real, matrix.imaginary))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import log10, sqrt
 
 from hydroelastic.fem.open_water.decay import ray_band
-from hydroelastic.fem.open_water.field_model import first_mesh, first_resolution
+from hydroelastic.fem.open_water.model_building import first_mesh, first_resolution
 from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.physics.tank import Tank

@@ -21,7 +21,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.high_frequency import highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import (
     BodiesAtInfiniteFrequency,
@@ -29,6 +29,7 @@ from hydroelastic.fem.open_water.infinite_frequency import (
     infinite_frequency_added_mass,
 )
 from hydroelastic.fem.open_water.low_frequency import has_low_frequency_series, lowest_meshed_frequency
+from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between

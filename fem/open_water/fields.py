@@ -19,8 +19,9 @@ from math import log
 import numpy as np
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.incident_waves import Plane
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.fem.open_water.resonance import ANGLE

@@ -130,11 +130,12 @@ class OpenResponse:
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
         fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each incident one, shape
-            (k, incident), and of motions, shape (k, body unknowns).
+        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape
+            (k, waves), and of motions, shape (k, body unknowns).
         motions: body unknowns, shape (incident, body unknowns).
-        absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
         equations: from which the motions follow, without drag.
+        damping: of the bodies beyond that of these equations, as by drag, shape (incident, body unknowns, body
+            unknowns).
     """
 
     model: OpenModel
@@ -144,13 +145,21 @@ class OpenResponse:
     fluxes: np.ndarray
     potentials: Callable[[np.ndarray, np.ndarray], np.ndarray]
     motions: np.ndarray
-    absorbed: np.ndarray
     equations: BodyEquations
+    damping: np.ndarray
 
     @cached_property
     def scattered(self) -> np.ndarray:
         """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
-        return self.potentials(np.eye(len(self.incident)), self.motions)
+        return self.scattered_by(self.motions)
+
+    def scattered_by(self, motions: np.ndarray) -> np.ndarray:
+        """Return the same with other motions, shape (incident, body unknowns)."""
+        return self.potentials(np.eye(len(self.incidence.planes))[self.incident], motions)
+
+    def radiated_by(self, motions: np.ndarray) -> np.ndarray:
+        """Return ψ of waves that motions of shape (k, body unknowns) radiate, shape (k, free unknowns)."""
+        return self.potentials(np.zeros((len(motions), len(self.incidence.planes))), motions)
 
     @cached_property
     def missed(self) -> np.ndarray:
@@ -160,7 +169,7 @@ class OpenResponse:
     @property
     def reflected(self) -> float:
         """Part of the power of outgoing waves that the ends of the absorbing layer reflect at most."""
-        return sum(self.model.absorbing_layer.reflected(self.model.basin, float(self._wavenumbers.min())))
+        return sum(self.model.absorbing_layer.reflected(self.model.basin, float(self.wavenumbers.min())))
 
     @property
     def scattered_powers(self) -> np.ndarray:
@@ -230,7 +239,7 @@ class OpenResponse:
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.
             return np.zeros(len(self.incident))
-        momenta = 0.5 * self.squared.real * self._towards * self._wavenumbers * self.incidence.powers
+        momenta = self.momenta
         # Waves that leave to the left push to the right.
         force: np.ndarray = momenta[self.incident] - momenta @ np.abs(self.outgoing(motions)) ** 2
         return force
@@ -241,37 +250,25 @@ class OpenResponse:
         wave = self.incidence.planes[self.incident[incident]]
         return self.model.near_field.drift_force(self.squared.real, self.scattered[incident], wave.field)
 
-    def drift_error(self, error: float, motions: np.ndarray | None = None) -> np.ndarray:
-        """Return the error of the drift force, shape (incident,).
-
-        With κ times the balance of power added, F = (λ/2) [(k − κ) P + Σ (κ ∓ kⱼ) Pⱼ|cⱼ|² + κ (power lost)] of incident
-        power P. For one surface κ = k leaves the reflected wave alone, whose R has the relative error of R², κ = −k the
-        transmitted one: the smaller error holds. Where nearly all is reflected F hardly changes with R.
-
-        Args:
-            error: of the amplitudes of outgoing waves, relative to the incident one.
-            motions: see `drift_force`.
-        """
-        if self.incidence.directions == 1:
-            return np.zeros(len(self.incident))
-        powers, towards = self.incidence.powers, self._towards
-        incoming = powers[self.incident]
-        amplitudes = np.abs(self.outgoing(motions))
-        own, other = self._wavenumbers[self.incident], self._wavenumbers[:, None]
-        arms = [np.abs(kappa - np.outer(towards, towards[self.incident]) * other) for kappa in (own, -own)]
-        waves = 2.0 * np.min([(arm * amplitudes * np.sqrt(np.outer(powers, incoming))).sum(axis=0) for arm in arms], 0)
-        lost = np.abs(incoming - powers @ amplitudes**2)
-        total: np.ndarray = (waves + 2.0 * own * lost) * error + own * incoming * np.abs(self.energy_residual())
-        return 0.5 * self.squared.real * total
-
     @property
-    def _wavenumbers(self) -> np.ndarray:
+    def wavenumbers(self) -> np.ndarray:
+        """Of each wave, in units of the basin, shape (waves,)."""
         return np.array([plane.wave.wavenumber for plane in self.incidence.planes])
 
     @property
-    def _towards(self) -> np.ndarray:
-        """1 of waves to the right, −1 of those to the left, shape (waves,)."""
-        return np.array([plane.direction for plane in self.incidence.planes if isinstance(plane, Plane)])
+    def momenta(self) -> np.ndarray:
+        """½λ(±k)P, by which each wave of a section carries momentum to the right, per |c|², shape (waves,)."""
+        towards = np.array([plane.direction for plane in self.incidence.planes if isinstance(plane, Plane)])
+        momenta: np.ndarray = 0.5 * self.squared.real * towards * self.wavenumbers * self.incidence.powers
+        return momenta
+
+    @property
+    def absorbed(self) -> np.ndarray:
+        """aᴴBa/ω, the power that all damping from outside takes over ½ω³, shape (incident,)."""
+        damping = self.model.outside.damping + self.damping
+        taken = np.einsum("wi,wij,wj->w", self.motions.conj(), damping, self.motions).real
+        absorbed: np.ndarray = taken / np.sqrt(self.squared.real)
+        return absorbed
 
     @property
     def absorption(self) -> np.ndarray:

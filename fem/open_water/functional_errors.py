@@ -36,7 +36,7 @@ def functional_errors(response: OpenResponse, dual: np.ndarray) -> tuple[np.ndar
         Both errors of each J, each of shape (functionals, incident).
     """
     model, squared = response.model, abs(response.squared)
-    loaded = model.cells_missed(response.potentials(np.zeros((len(dual), len(response.incident))), dual))
+    loaded = model.cells_missed(response.radiated_by(dual))
     away, tips = model.summed_over_cells(np.sqrt(loaded[:, None] * response.missed))
     radiated = response.incidence.amplitudes((response.incidence.pressures - response.equations.radiated) @ dual.T)
     powers = response.incidence.powers @ np.abs(radiated) ** 2

@@ -30,10 +30,8 @@ from scipy.special import jv, jvp
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
-from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
-from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.modal.liquid.travelling_waves import TravellingWave
 from hydroelastic.physics.geometry import Geometry
-from hydroelastic.physics.tank import Tank
 
 RIGHTWARD, LEFTWARD = 1, -1
 
@@ -139,42 +137,6 @@ def incident_waves(waves: tuple[TravellingWave, ...], geometry: Geometry) -> lis
 def direction_of(waves_from: Literal["left", "right"]) -> int:
     """Return the direction of waves from a side: `RIGHTWARD` or `LEFTWARD`."""
     return RIGHTWARD if waves_from == "left" else LEFTWARD
-
-
-def drift_of_orders(
-    widths: np.ndarray, waves: np.ndarray, errors: np.ndarray, residuals: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean force along the waves per square of their amplitude of each pair of successive orders, N/m², and
-    its error, each of shape (n, orders − 1).
-
-    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
-    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation. With the power lost in an
-    order, Re aₙ + |aₙ|², the terms are those of −|aₙ − aₙ₊₁|², which tell the error.
-
-    Args:
-        widths: see `drift_widths`.
-        waves: aₙ of the orders from 0 on, shape (n, orders).
-        errors: of aₙ, shape (n, orders).
-        residuals: of the energy over the incident power, shape (n, orders).
-    """
-    own, following = waves[:, :-1], waves[:, 1:]
-    lost = 2.0 * errors * np.abs(waves.real + np.abs(waves) ** 2) + 0.25 * np.abs(residuals)
-    off = 2.0 * np.abs(own - following) * (errors[:, 1:] + errors[:, :-1]) + lost[:, 1:] + lost[:, :-1]
-    force: np.ndarray = -widths[:, None] * (own + following + 2.0 * own * following.conj()).real
-    return force, widths[:, None] * off
-
-
-def drift_widths(tank: Tank, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return k, 1/m, and (4/k) E (c_g/c)/A², N/m², of waves on one level, each of shape (n,).
-
-    Args:
-        tank: the open water.
-        omega: rad/s, shape (n,).
-    """
-    waves = [travelling_waves(two_layers(tank), float(one))[0] for one in omega]
-    wavenumbers = np.array([wave.wavenumber for wave in waves])
-    momenta = [wave.wavenumber**2 * wave.energy / wave.elevation**2 for wave in waves]
-    return wavenumbers, 2.0 * omega**2 * np.array(momenta) / wavenumbers
 
 
 @dataclass(frozen=True, kw_only=True)

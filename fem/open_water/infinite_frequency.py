@@ -11,7 +11,8 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.open_water.attempts import best_in_basin
 from hydroelastic.fem.open_water.basin import open_basin, sized_absorbing_layer
-from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
+from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER
+from hydroelastic.fem.open_water.model_building import open_mesh
 from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt

@@ -123,6 +123,7 @@ class SpectrumTable:
         dofs: m degrees of freedom.
         mean_drift_force: mean force on the bodies along x, N/m; NaN about an axis in waves on two levels.
         mean_drift_error: its estimated error, N/m.
+        mean_drift_truncation: the part of this by the waves beyond the last frequency, N/m.
         mean_absorbed_power: mean power that linear damping from outside takes, W/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
         plates: one for each beam and round plate.
@@ -143,6 +144,7 @@ class SpectrumTable:
     dofs: tuple[Dof, ...]
     mean_drift_force: float
     mean_drift_error: float
+    mean_drift_truncation: float
     mean_absorbed_power: float
     equivalent_damping: Floats
     plates: tuple[PlateStatistics, ...]

@@ -15,6 +15,8 @@ from hydroelastic.fem.open_water.outside import attachment_paths
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes, where they fall like n⁻⁵: those of
 # beams whose load jumps where a section begins.
 _TAIL = 0.25
+# The same of Kₙaₙ², which falls like n⁻⁶.
+_ENERGY_TAIL = 0.2
 # Power of the wavenumber with which amplitudes of a uniform beam fall.
 _ORDER = 6.0
 
@@ -37,16 +39,43 @@ def omitted_deflection(solution: OpenResponse, index: int) -> np.ndarray:
     Shapes of a uniform beam with free ends, whose fourth derivative is κ⁴W, take parts of a smooth load that fall
     like κ⁻²: their amplitudes fall like κ⁻⁶, κₙ l = (n − ½)π, in even and in odd ones alike. |W| = 2 at the ends.
     """
-    model, tank = solution.model, solution.model.basin.tank
-    first, count = sum(body.size for body in model.pencil.bodies[:index]), model.pencil.bodies[index].size
-    last = np.abs(solution.motions[:, first + max(count - 2, 0) : first + count])
+    tank, count = solution.model.basin.tank, solution.model.pencil.bodies[index].size
+    last = _last_amplitudes(solution, index)
     if not tank.beams[index].is_uniform:
         tail = _TAIL * count * last.max(axis=1)
     else:
         numbers = np.arange(count - 2, count) - 0.5
         tail = 2.0 * last @ ((0.5 * numbers) ** _ORDER * zeta(_ORDER, 1.0 + 0.5 * numbers))
+    return np.asarray(tail + _tails_of_attachments(solution, index))
+
+
+def omitted_energy(solution: OpenResponse, index: int) -> np.ndarray:
+    """√Σ Kₙ|aₙ|² of the omitted dry modes of a beam in each wave, shape (incident,).
+
+    With Kₙ ~ κₙ⁴ the terms of `omitted_deflection` fall like n⁻⁸, those of loads that jump like n⁻⁶.
+    """
+    tank, body = solution.model.basin.tank, solution.model.pencil.bodies[index]
+    energies = body.stiffness[-2:] * _last_amplitudes(solution, index) ** 2
+    if not tank.beams[index].is_uniform:
+        tail = _ENERGY_TAIL * body.size * energies.max(axis=1)
+    else:
+        numbers, power = np.arange(body.size - 2, body.size) - 0.5, 2.0 * _ORDER - 4.0
+        tail = energies @ ((0.5 * numbers) ** power * zeta(power, 1.0 + 0.5 * numbers))
+    return np.asarray(np.sqrt(tail) + np.sqrt(body.stiffness[-1]) * _tails_of_attachments(solution, index))
+
+
+def _last_amplitudes(solution: OpenResponse, index: int) -> np.ndarray:
+    """|a| of the last two dry modes of a beam in use, shape (incident, 2)."""
+    bodies = solution.model.pencil.bodies
+    stop = sum(body.size for body in bodies[: index + 1])
+    last: np.ndarray = np.abs(solution.motions[:, stop - min(bodies[index].size, 2) : stop])
+    return last
+
+
+def _tails_of_attachments(solution: OpenResponse, index: int) -> np.ndarray:
+    """Deflection in the omitted dry modes by springs and dampers in each wave, shape (incident,)."""
     omega = float(np.sqrt(solution.squared.real))
-    return np.asarray(tail + [_tail_of_attachments(motions, model, index, omega) for motions in solution.motions])
+    return np.array([_tail_of_attachments(motions, solution.model, index, omega) for motions in solution.motions])
 
 
 def _tail_of_attachments(motions: np.ndarray, model: OpenModel, index: int, omega: float) -> float:

@@ -15,8 +15,9 @@ import numpy as np
 from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, drift_widths
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders, drift_widths
+from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -135,7 +136,7 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
         hulls = found[0].table.hulls if found else ()
         found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request, hulls))
-    return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
+    return replace(_largest(found), table=_response(problem, found), error=_error(found))
 
 
 def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
@@ -150,7 +151,8 @@ def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
     return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
-def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
+def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> ResponseTable:
+    tables = [one.table for one in found]
     dofs = _dofs(problem, *tables)
     waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
@@ -163,10 +165,10 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         drift, drift_error = drift_of_orders(
             drift_widths(problem.tank, first.omega)[1],
             waves[:, 0, 0],
-            np.array([table.relative_error for table in tables]).T,
+            np.stack([one.wave_errors for one in found], axis=1),
             np.array([table.energy_residual[:, 0] for table in tables]).T,
         )
-        drift, drift_error = direction_of(first.waves_from) * drift.sum(axis=1), drift_error.sum(axis=1)
+        drift = direction_of(first.waves_from) * drift.sum(axis=1)
     return replace(
         first,
         dofs=dofs,

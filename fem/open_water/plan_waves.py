@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, Circular
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.results import ResponseTable
 from hydroelastic.fem.open_water.solver import OpenSolver

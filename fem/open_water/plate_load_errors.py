@@ -83,7 +83,7 @@ def _meshed(
     of_motions = -(weights / modes.restoring(squared))[:, further_modes] @ modes.held(squared)[:, further_modes].T
     of_motions[:, modes.own] += weights[:, : modes.count]
     dual = dual_motions(response, of_motions)
-    loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual) + further
+    loaded = response.radiated_by(dual) + further
     radiated = products(loaded, modes.loads[further_modes]) @ bent_without_drag(modes, response)[:, further_modes].T
     by_cells = products(missed, np.sqrt(response.missed))
     found: np.ndarray = sum(functional_errors(response, dual)) + squared * (np.abs(radiated) + by_cells)

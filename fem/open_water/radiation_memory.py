@@ -19,7 +19,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, Band, OpenModel
 from hydroelastic.fem.open_water.high_frequency import arc, high_frequency_series, highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
 from hydroelastic.fem.open_water.low_frequency import (
@@ -27,6 +27,7 @@ from hydroelastic.fem.open_water.low_frequency import (
     is_infinitely_deep,
     lowest_meshed_frequency,
 )
+from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference, reported_shapes

@@ -14,8 +14,9 @@ from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency, scaled_stiffness
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region

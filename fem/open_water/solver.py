@@ -8,9 +8,10 @@ import numpy as np
 from scipy.linalg import eig, eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, incident_waves
+from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
@@ -192,7 +193,7 @@ class OpenSolver:
             products(diffracted, self._loads),
             (products(waves.fluxes, radiated), products(waves.fluxes, diffracted)),
         )
-        motions, absorbed = self._motions(squared, waves, equations)
+        motions, dampings = self._motions(squared, waves, equations)
         scattered = diffracted + motions @ radiated
         if self.model.basin.tank.elastic:
             with self._watch.stage("reduce"):
@@ -204,10 +205,10 @@ class OpenSolver:
             incidence=waves,
             incident=incident,
             fluxes=products(waves.fluxes, scattered[incident]),
-            potentials=lambda parts, moved: parts @ diffracted[incident] + moved @ radiated,
+            potentials=lambda parts, moved: parts @ diffracted + moved @ radiated,
             motions=motions[incident],
-            absorbed=absorbed[incident],
             equations=equations,
+            damping=dampings[incident],
         )
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
@@ -229,7 +230,7 @@ class OpenSolver:
                 diffracted @ coupling.T,
                 (fluxes @ radiated.T, fluxes @ diffracted.T),
             )
-            motions, absorbed = (part[incident] for part in self._motions(squared, waves, equations))
+            motions, dampings = (part[incident] for part in self._motions(squared, waves, equations))
             coordinates = diffracted[incident] + motions @ radiated
             parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
             residual = self._reduced.residuals(squared, known, parts, coordinates).max()
@@ -240,10 +241,10 @@ class OpenSolver:
             incidence=waves,
             incident=incident,
             fluxes=fluxes @ coordinates.T,
-            potentials=lambda parts, moved: lift(parts @ diffracted[incident] + moved @ radiated),
+            potentials=lambda parts, moved: lift(parts @ diffracted + moved @ radiated),
             motions=motions,
-            absorbed=absorbed,
             equations=equations,
+            damping=dampings,
         ), float(residual)
 
     def _equations(
@@ -263,12 +264,12 @@ class OpenSolver:
         )
 
     def _motions(self, squared: complex, waves: Incidence, equations: BodyEquations) -> tuple[np.ndarray, np.ndarray]:
-        """Return the motions in each wave, shape (waves, body unknowns), and aᴴBa/ω, the power that B takes over ½ω³,
-        shape (waves,)."""
+        """Return the motions in each wave, shape (waves, body unknowns), and the damping beyond that of the equations,
+        shape (waves, body unknowns, body unknowns)."""
         outside, omega = self.model.outside, float(np.sqrt(squared).real)
         dynamic, forces = equations.dynamic - 1j * omega * self.damping, equations.forces
         motions: np.ndarray = np.linalg.solve(dynamic, forces.T).T
-        dampings = np.repeat((outside.damping + self.damping)[None], len(motions), axis=0)
+        dampings = np.repeat(self.damping[None], len(motions), axis=0)
         if self.elevation:
             # Drag depends on the height of the wave: each has a damping of its own.
             heights = self.elevation / self.model.basin.units.length / waves.elevations
@@ -277,7 +278,7 @@ class OpenSolver:
                 damping = outside.equivalent_damping(speeds, REGULAR)
                 motions[place] = _moved(omega, dynamic, force, damping)
                 dampings[place] += damping
-        return motions, np.einsum("wi,wij,wj->w", motions.conj(), dampings, motions).real / omega
+        return motions, dampings
 
     def resonances_between(self) -> np.ndarray:
         """Return ω of bodies and liquid on the basis, rad/s, Re ω ≥ 0, with those of the continuous spectrum

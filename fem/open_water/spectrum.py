@@ -25,9 +25,10 @@ from hydroelastic.fem.open_water.plate_orders import bent_in_order, meshed_error
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import incident_places, outcome, response_errors
+from hydroelastic.fem.open_water.response import incident_places, outcome
+from hydroelastic.fem.open_water.response_errors import response_errors
 from hydroelastic.fem.open_water.solver import shared_solver
-from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power
+from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power, reflected_drift
 from hydroelastic.fem.open_water.spectrum_rows import (
     air_gaps_of_plates,
     along_plates,
@@ -109,7 +110,8 @@ def solve_spectrum(
     omegas = reduce(np.union1d, (one.result.omegas for one in attempts))
     curves = [one.result.at(omegas, problem.tolerance) for one in attempts]
     table = _table(replace(problem, tolerance=tolerance), request, curves)
-    beyond = table.largest_error("truncation_error")
+    drift = np.nan_to_num(table.mean_drift_truncation) / reflected_drift(problem.tank, request.spectrum)
+    beyond = max(table.largest_error("truncation_error"), drift)
     if request.highest is None and beyond > _BEYOND * tolerance:
         # The energy beyond falls like ω⁻⁴.
         highest = min((beyond / (0.5 * _BEYOND * tolerance)) ** 0.25, _WIDEST) * request.band[1]
@@ -199,10 +201,8 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
                 own = _weighed_error(request, curves)
                 break
             table = _table(problem, request, [curves])
-            units = solver.model.basin.units
-            # The drift force of waves that are reflected in full.
-            reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
-            own = max(table.largest_error("transfer_error"), table.mean_drift_error / reflected)
+            drift = table.mean_drift_error - table.mean_drift_truncation
+            own = max(table.largest_error("transfer_error"), drift / reflected_drift(problem.tank, request.spectrum))
             if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
                 break
             omegas = curves.omegas
@@ -254,7 +254,7 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
     units = models[0].basin.units
     back = np.linalg.inv(block_diag(*(model.scale.turn * model.scale.lengths[:, None] for model in models)))
     damping_unit = units.density * units.gravity * units.volume * units.length / units.frequency
-    drift, drift_error = mean_drift(problem, request, curves, motions, further)
+    drift = mean_drift(problem, request, curves, motions, damping, further)
     responses = tuple(
         IrregularResponse(
             quantity=name,
@@ -283,8 +283,9 @@ def _table(problem: OpenWaterProblem, request: SpectrumRequest, curves: list[Cur
         relative_error=errors,
         responses=responses,
         dofs=dofs,
-        mean_drift_force=drift,
-        mean_drift_error=drift_error,
+        mean_drift_force=drift.force,
+        mean_drift_error=drift.error + drift.truncation,
+        mean_drift_truncation=drift.truncation,
         mean_absorbed_power=mean_power(request, curves, motions),
         equivalent_damping=(back.T @ damping @ back * damping_unit)[np.ix_(order, order)],
         plates=tuple(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import count
 from math import nan
 
@@ -11,10 +12,15 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.basin import extent_of_bodies
 from hydroelastic.fem.open_water.curves import Curves
-from hydroelastic.fem.open_water.incident_waves import direction_of, drift_of_orders, drift_widths
+from hydroelastic.fem.open_water.drift_errors import drift_errors
+from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, drift_widths, wave_errors
+from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import SpectrumRequest
+from hydroelastic.fem.open_water.spectrum_rows import estimated_about_peaks
 from hydroelastic.physics.irregular_waves import moments, statistics
+from hydroelastic.physics.tank import Tank
+from hydroelastic.physics.wave_spectrum import WaveSpectrum
 
 # Frequencies over the last one, above which the drift force tells how it may change beyond.
 _LAST = 0.7
@@ -23,20 +29,37 @@ _LAST = 0.7
 _LEFT_OUT, _LEAST = 0.25, 1e-5
 
 
+@dataclass(frozen=True, kw_only=True)
+class MeanDrift:
+    """The mean drift force along x in irregular waves, N/m, or of solids N; NaN about an axis in waves on two levels.
+
+    Attributes:
+        force: its mean.
+        error: by its values at the frequencies and by their distances.
+        truncation: error by the waves beyond the last frequency.
+    """
+
+    force: float
+    error: float
+    truncation: float
+
+
 def mean_drift(
     problem: OpenWaterProblem,
     request: SpectrumRequest,
     curves: list[Curves],
     motions: np.ndarray,
+    damping: np.ndarray,
     further: Callable[[int], Curves],
-) -> tuple[float, float]:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its error, N/m or of solids N (collective).
+) -> MeanDrift:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω (collective).
 
     Args:
         problem: the open water.
         request: the request.
         curves: the transfer functions of the orders that move.
         motions: per elevation, with the damping in place of drag, shape (n, unknowns).
+        damping: in place of drag, shape (unknowns, unknowns).
         further: gives the waves of orders that do not move.
     """
     omegas, towards = curves[0].omegas, direction_of(request.waves_from)
@@ -51,7 +74,7 @@ def mean_drift(
     ]
     if problem.tank.geometry.is_revolved:
         if len(curves[0].responses[0].incidence.planes) > 1:
-            return nan, nan
+            return MeanDrift(force=nan, error=nan, truncation=nan)
         known = {
             own.order: np.array([one.partial_waves(part)[0] for one, part in zip(own.responses, each, strict=True)])
             for own, each in zip(curves, parts, strict=True)
@@ -61,22 +84,17 @@ def mean_drift(
             request,
             omegas,
             known,
-            {own.order: own.errors for own in curves},
+            {own.order: own for own in curves},
             further,
         )
     else:
-        units = curves[0].solver.model.basin.units
-        forces, errors = (
-            units.density
-            * units.gravity
-            * np.array(
-                [
-                    np.hstack([one.drift_force(part), one.drift_error(float(error), part)])
-                    * abs(one.per_elevation(towards)[0]) ** 2
-                    for one, part, error in zip(curves[0].responses, parts[0], curves[0].errors, strict=True)
-                ]
-            ).T
+        (own,), (moved,) = curves, parts
+        units = own.solver.model.basin.units
+        scales = np.array(
+            [units.density * units.gravity * abs(one.per_elevation(towards)[0]) ** 2 for one in own.responses]
         )
+        forces = scales * [one.drift_force(part)[0] for one, part in zip(own.responses, moved, strict=True)]
+        errors = scales * drift_errors(own.responses, omegas, estimated_about_peaks(own), own.reduced, damping)[:, 0]
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
     roots = np.sqrt(np.abs(forces))[:, None]
     deviations = np.sqrt(roots**2 + errors[:, None]) - roots
@@ -85,8 +103,18 @@ def mean_drift(
     tail, last = 2.0 * request.spectrum.tail(omegas[-1], 0), np.abs(forces[omegas >= _LAST * omegas[-1]])
     within = 2.0 * float(told.moments[0, 0])
     # Of an amplitude, the relative error is half of that of its square.
-    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + tail * float(np.ptp(last))
-    return towards * (within + tail * float(last[-1])), error
+    return MeanDrift(
+        force=towards * (within + tail * float(last[-1])),
+        error=2.0 * float((told.sampling_error + told.transfer_error)[0]) * within,
+        truncation=tail * float(np.ptp(last)),
+    )
+
+
+def reflected_drift(tank: Tank, spectrum: WaveSpectrum) -> float:
+    """Return the mean drift force of waves that are reflected in full in deep water, N/m, or of solids N."""
+    layer = tank.layers[0]
+    width = 2.0 * extent_of_bodies(tank)[1] if tank.geometry.is_whole else 1.0
+    return layer.density * tank.gravity * spectrum.significant_height**2 / 16.0 * width
 
 
 def _drift_of_orders(
@@ -94,7 +122,7 @@ def _drift_of_orders(
     request: SpectrumRequest,
     omegas: np.ndarray,
     known: dict[int, np.ndarray],
-    certain: dict[int, np.ndarray],
+    moving: dict[int, Curves],
     further: Callable[[int], Curves],
 ) -> tuple[np.ndarray, np.ndarray]:
     """Drift force along the waves per square of their amplitude about an axis, N/m², and its error, each of shape (n,)
@@ -113,18 +141,17 @@ def _drift_of_orders(
         return float(moments(request.spectrum, omegas, np.sqrt(np.abs(forces))[:, None], (0,))[0, 0])
 
     for order in count():
-        own = None if order in known else further(order)
-        waves.append(
-            known[order][:, 0] if own is None else np.array([one.partial_waves()[0, 0] for one in own.responses])
-        )
-        errors.append(certain[order] if own is None else own.errors)
+        own = moving.get(order) or further(order)
+        found = known.get(order)
+        waves.append(np.array([one.partial_waves()[0, 0] for one in own.responses]) if found is None else found[:, 0])
+        errors.append(wave_errors(own.responses, omegas, estimated_about_peaks(own), own.reduced))
         if order < max(1, *known):
             continue
-        found, uncertain = np.array(waves).T, np.array(errors).T
-        forces, off = drift_of_orders(widths, found, uncertain, np.zeros_like(uncertain))
+        partial = np.array(waves).T
+        forces, error = drift_of_orders(widths, partial, np.stack(errors, axis=1), np.zeros(partial.shape))
         left_out = np.abs(forces[:, -1]) * np.maximum(scattered - order, 1.0)
         if mean(left_out) <= least * mean(forces.sum(axis=1)):
-            return forces.sum(axis=1), off.sum(axis=1) + left_out
+            return forces.sum(axis=1), error + left_out
     raise AssertionError
 
 

@@ -17,7 +17,8 @@ from hydroelastic.fem.open_water.irregular_results import PlateStatistics
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.radiation import estimated_places
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import load_errors, plate_deflection
+from hydroelastic.fem.open_water.response_errors import load_errors
+from hydroelastic.fem.open_water.response_table import plate_deflection
 from hydroelastic.fem.open_water.results import Floats, PlateDeflection
 from hydroelastic.fem.open_water.round_plates import along_diameter, deflections_of_order, joined, radii_along
 from hydroelastic.physics.dofs import Dof

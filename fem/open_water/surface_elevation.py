@@ -81,7 +81,7 @@ def sampled_elevations(response: OpenResponse, motions: np.ndarray, rows: np.nda
         towards: direction of the wave.
     """
     factor = response.per_elevation(towards)[0]
-    psi = response.potentials(np.eye(1), motions[None] / factor)
+    psi = response.scattered_by(motions[None] / factor)
     found: np.ndarray = response.squared.real * factor * response.model.pencil.products(rows, psi)[:, 0]
     return found
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import Band, open_model
+from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep
+from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt

@@ -299,7 +299,8 @@ def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
         (
             plates,
             "Moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",
-            (),
+            # Without points beams have no other table.
+            () if table.responses else about,
         ),
     ):
         found = [group.evaluated(one) for one in group.records(table)]

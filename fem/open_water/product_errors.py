@@ -1,0 +1,51 @@
+"""Errors of functionals of waves, from products of what the mesh misses of a wave and of its dual solution.
+
+The Galerkin method changes a functional of ψ with the dual solution z by A_λ(z − z_h, ψ − ψ_h), see
+`functional_errors`: of both functions only the parts of higher degree are left. In each cell |A_λ| ≤ √(E_z E_ψ) with
+the missed energies E of `spectral_error`; but where z and ψ are of different phase, or orthogonal to each other, far
+less is left of the product. As the missed energy follows from that in the last degrees which are there, the missed
+product follows from that in the two last ones: with the coefficients of both gradients there
+
+    |A_λ(z − z_h, ψ − ψ_h)| ≈ √(E_z E_ψ) |Re Σ wᵢ zᵢψᵢ| / √(Σ|wᵢ zᵢ²| Σ|wᵢ ψᵢ²|),
+
+weighted by wᵢ = ρ (det/sᵢ²) w of `complex_scaling`. In the absorbing layer, where ψ oscillates, the phase of the
+products turns from degree to degree, and their modulus counts. There an outgoing wave e^{ikx̃ + ky} has
+(∂ψ/∂x̃)² + (∂ψ/∂y)² = 0: of the energy that the layer misses hardly anything reaches the waves.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydroelastic.fem.liquid import cell_values
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.spectral_error import missing_energy
+
+
+def product_errors(model: OpenModel, duals: np.ndarray, potentials: np.ndarray) -> np.ndarray:
+    """Estimate |Re A_λ(z − z_h, ψ − ψ_h)| of pairs of z and ψ, summed over the cells (collective).
+
+    Args:
+        model: the problem.
+        duals: complex z on own free unknowns, shape (pairs, free unknowns).
+        potentials: ψ, of the same shape.
+
+    Returns:
+        Dimensionless, shape (pairs,).
+    """
+    count, weights = len(duals), model.gradient_weights
+    vectors = [model.pencil.vector(part) for psi in (*duals, *potentials) for part in (psi.real, psi.imag)]
+    energies, products = [], []
+    for coefficients in model.gradient_coefficients(cell_values(model.pencil.liquid, vectors)):
+        # Those of each axis in turn.
+        turned = np.repeat(weights, coefficients.shape[2] // weights.shape[1], axis=1)
+        waves = coefficients[::2] + 1j * coefficients[1::2]
+        energies.append((np.abs(turned) * np.abs(waves) ** 2).sum(axis=2))
+        product = (turned * waves[:count] * waves[count:]).sum(axis=2)
+        products.append(np.where(model.in_absorbing_layer, np.abs(product), np.abs(product.real)))
+    missed, last = np.sqrt(missing_energy(*energies)), np.sqrt(energies[0] + energies[1])
+    # Cells at rest have no energy in any degree.
+    parts = (products[0] + products[1]) / np.maximum(last[:count] * last[count:], np.finfo(float).tiny)
+    away, tips = model.summed_over_cells(missed[:count] * missed[count:] * parts)
+    total: np.ndarray = away + tips
+    return total

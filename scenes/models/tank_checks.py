@@ -33,6 +33,9 @@ DEPTH_TO_LENGTH = (1e-4, 1e3)
 """Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
 its end (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
 
+# Over the extent of bodies in open water; places of cells are rounded beside that of the bed.
+_DEEPEST = 1e8
+
 LIGHTEST = 1e-6
 """ρᵤ/ρₗ of two liquids: below it the upper one is lost in the rounding of the lower one."""
 
@@ -138,14 +141,16 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     """The absorbing layer is as deep as needed: open water may be deep."""
-    least = DEPTH_TO_LENGTH[0] * length_scale_of_bodies(scene)
+    length = length_scale_of_bodies(scene)
+    least, most = DEPTH_TO_LENGTH[0] * length, _DEEPEST * length
     for index, layer in enumerate(scene.layers):
-        if layer.depth < least:
+        if layer.depth < least or most < layer.depth < inf:
+            thin = layer.depth < least
             yield problem_at(
                 ("liquid", index, "depth"),
                 layer.depth,
-                "the layer is too thin to mesh beside the length that the bodies take up",
-                allowed=f"at least {least:g} m",
+                f"the layer is too {'thin' if thin else 'deep'} to mesh beside the length that the bodies take up",
+                allowed=f"{least:g} to {most:g} m, or inf",
             )
 
 

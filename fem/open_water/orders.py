@@ -158,6 +158,8 @@ def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> Respo
     peaks = [peak for table in tables for peak in table.missed_peaks]
     plates = tuple(joined(list(parts)) for parts in zip(*(table.round_plates for table in tables), strict=True))
     error = np.max([table.relative_error for table in tables], axis=0)
+    # Errors of the orders add up in the deflection.
+    added = np.sum([table.relative_error for table in tables], axis=0)
     first = tables[0]
     if len(first.waves) > 1:
         drift, drift_error = np.full((2, len(first.omega)), np.nan)
@@ -182,7 +184,7 @@ def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> Respo
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=error,
         missed_peaks=tuple(peaks),
-        plates=tuple(with_largest(problem.tank, along_diameter(problem.tank, plate, error), plate) for plate in plates),
+        plates=tuple(with_largest(problem.tank, along_diameter(problem.tank, plate, added), plate) for plate in plates),
         round_plates=plates,
         hulls=tuple(_around(list(parts)) for parts in zip(*(table.hulls for table in tables), strict=True)),
     )

@@ -108,9 +108,11 @@ def test_answers_do_not_depend_on_the_stretch_so_sizes_do_not_either() -> None:
     assert "too short beside the others" in said(PLATE, PLATE | {"start": 9e4, "length": 30.0}, length=1e5, analyses=[])
 
 
-def test_depths_are_as_deep_as_one_likes_but_not_too_thin() -> None:
+def test_depths_are_neither_too_thin_nor_too_deep_to_mesh() -> None:
     assert open_scene(liquids=({"density": 1000.0, "depth": 1e6},)).liquid[0].depth == 1e6
     assert "too thin" in said(PLATE, liquids=({"density": 1000.0, "depth": 1e-5},), analyses=[])
+    for body in (PLATE, CIRCLE):
+        assert "too deep" in said(body, liquids=({"density": 1000.0, "depth": 1e30},), analyses=[])
     assert "reaches down" in said(liquids=({"density": 1000.0, "depth": 0.4},))
 
 

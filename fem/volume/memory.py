@@ -11,7 +11,7 @@ DIRECT_UNKNOWNS = 120_000
 # Bytes, measured: of a factorization of N unknowns over N^(4/3), of multigrid over N of degree 2 and of higher ones.
 _OF_FACTORS = 200.0
 _OF_MULTIGRID = {2: 2_000.0, 4: 3_000.0}
-# Potentials for each mode: those of products, kept until all modes are found, and its own; measured.
+# Potentials for each mode: those of its products, kept until all modes are found, as many as were counted, and its own.
 _POTENTIALS = 4.5
 _MEMORY = Path("/proc/meminfo")
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import accumulate, pairwise
+from math import inf
 from typing import TypeAlias, TypeVar
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_are_in_equilibrium
+from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, DEEPEST, floats_are_in_equilibrium
 from hydroelastic.scenes.models.open_checks import (
     bodies_are_all_sections_or_all_solids,
     closed_tanks_have_no_open_water_keys,
@@ -32,9 +33,6 @@ Spanning = TypeVar("Spanning", bound=AnyBeam | SeaPlate)
 DEPTH_TO_LENGTH = (1e-4, 1e3)
 """Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
 its end (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
-
-# Over the extent of bodies in open water; places of cells are rounded beside that of the bed.
-_DEEPEST = 1e8
 
 LIGHTEST = 1e-6
 """ρᵤ/ρₗ of two liquids: below it the upper one is lost in the rounding of the lower one."""
@@ -142,7 +140,8 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
 def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     """The absorbing layer is as deep as needed: open water may be deep."""
     length = length_scale_of_bodies(scene)
-    least, most = DEPTH_TO_LENGTH[0] * length, _DEEPEST * length
+    # The extent of floats is that of their positions: their own depth is among the checks of floats.
+    least, most = DEPTH_TO_LENGTH[0] * length, DEEPEST * length if length else inf
     for index, layer in enumerate(scene.layers):
         if layer.depth < least or most < layer.depth < inf:
             thin = layer.depth < least

@@ -127,8 +127,8 @@ def test_a_baffle_on_the_bed_has_the_frequencies_of_the_plane(tolerance: float) 
     omega, estimates = omega_of(tank, tolerance, 3)
     for place, exact in SLIT.items():
         error = omega[place] / exact - 1.0
-        # Measured: 1.1 to 1.4 times.
-        assert 0.0 < error <= estimates[place] <= min(tolerance, 3.0 * error)
+        # Measured: 1.1 to 1.4 times by the mesh, and up to 5 times with the bound of what the eigen-solver leaves.
+        assert 0.0 < error <= estimates[place] <= min(tolerance, 8.0 * error)
 
 
 @pytest.mark.slow

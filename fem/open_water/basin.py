@@ -231,6 +231,7 @@ class AbsorbingLayer:
         Of waves e^{−2kX sin α}, of the slowest evanescent mode e^{−πX cos α/H} between a bed and a free top, in deep
         liquids (kX)⁻² of ψ ~ 1/(kX), about an axis k⁻²X⁻³ of ψ ~ 1/(kX²). Measured on beams: at both ends the
         exponentials are 1.0 to 2 times the error, the power 20 times; they count one and a half times and by half.
+        About an axis a wave a that is reflected by r comes back as r a (2J − H), and changes a by 2ra².
 
         Args:
             basin: the basin.
@@ -240,7 +241,7 @@ class AbsorbingLayer:
         evanescent = exp(-pi * self.farthest * cos(self.angle) / bounded) if bounded else 0.0
         deep = 0.0 if all(isfinite(depth) for depth in basin.depths) else reach**-2
         # There is no end at the axis.
-        ends, power = (1.5, deep / self.farthest) if basin.tank.geometry.is_revolved else (3.0, deep)
+        ends, power = (2.0, deep / self.farthest) if basin.tank.geometry.is_revolved else (3.0, deep)
         return ends * exp(-2.0 * reach * sin(self.angle)), ends * evanescent + power
 
 

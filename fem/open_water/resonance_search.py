@@ -13,6 +13,7 @@ follows from the eigenvector alone, distinguishes both, and measures how well a 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from mpi4py import MPI
@@ -28,8 +29,9 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 
 # Relative norm of v₁ + iv₂ below which an eigenvector is that of a conjugate.
 _CONJUGATE = 1e-6
-# Newton's steps double the digits until rounding stops them.
-_STEP = 1e-11
+# Newton's steps double the digits until rounding stops them: one below the second that does not fall is rounding, which
+# is 1e-10 of strongly damped resonances.
+_STEP, _ROUNDED = 1e-11, 1e-8
 _MOST_STEPS = 12
 
 
@@ -131,7 +133,7 @@ class ResonanceSearch:
         Raises:
             EigenSolverError: if it does not converge.
         """
-        products = self._pencil.products
+        products, before = self._pencil.products, inf
         for _ in range(_MOST_STEPS):
             self._solver.shift(eigenvalue)
             radiated = np.array([self._solver.solve(load) for load in self._loads])
@@ -144,9 +146,10 @@ class ResonanceSearch:
             nearest = int(np.argmin(np.abs(steps)))
             step, bodies = complex(steps[nearest]), vectors[:, nearest]
             eigenvalue += step
-            if abs(step) <= _STEP * abs(eigenvalue):
-                pair = self._pair(eigenvalue, bodies @ radiated, bodies)
-                return replace(pair, residual=abs(step / eigenvalue))
+            size = abs(step / eigenvalue)
+            if size <= _STEP or before <= size <= _ROUNDED:
+                return replace(self._pair(eigenvalue, bodies @ radiated, bodies), residual=size)
+            before = size
         raise EigenSolverError(f"Newton's method does not converge to a resonance near {eigenvalue:g}")
 
     def _pair(self, eigenvalue: complex, potential: np.ndarray, bodies: np.ndarray) -> Eigenpair:

@@ -10,8 +10,9 @@ one dual solution for all of F, in which errors of reflected and transmitted wav
 
 It is bounded by `product_errors`. Beside it are the part r of the power that the ends of the absorbing layer reflect,
 r √(P_z P_ψ) with the powers that z and ψ radiate; omitted dry modes of stiffness Kₙ, less than Σ Kₙ|aₙ(z) aₙ(ψ)|/λ; and
-the relative errors of the reduced basis, of curved boundaries and of rounding. At frequencies without a dual solution
-the error over √(P_z P_ψ) is the larger one of both neighbours.
+the relative errors of the reduced basis, of curved boundaries and of rounding. Between frequencies with dual solutions
+the error over √(P_z P_ψ) is interpolated as a power of ω: long waves have ever less power beside the energy near the
+bodies.
 """
 
 from __future__ import annotations
@@ -25,7 +26,6 @@ import numpy as np
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.omitted_modes import omitted_energy
 from hydroelastic.fem.open_water.product_errors import product_errors
-from hydroelastic.fem.open_water.radiation import between
 from hydroelastic.fem.open_water.response_errors import unmeshed_error
 
 # Nothing moves below: a quotient by it is finite.
@@ -140,5 +140,13 @@ def drift_errors(
     powers = np.array([[dual.power for dual in row] for row in duals])
     rest = reduced + unmeshed_error(responses[0].model)
     others = np.array([[dual.of_waves(error) for dual in row] for row, error in zip(duals, rest, strict=True)])
-    errors: np.ndarray = between(omegas, places, missed) * powers + others
+    errors: np.ndarray = between_places(omegas, places, missed) * powers + others
     return errors
+
+
+def between_places(omegas: np.ndarray, places: list[int], values: np.ndarray) -> np.ndarray:
+    """Return values at all ω, shape (n, …), from those at some indices, shape (places, …), as powers of ω."""
+    logarithms = np.log(np.maximum(values, _LEAST)).reshape(len(places), -1)
+    known, wanted = np.log(omegas[places]), np.log(omegas)
+    found = np.column_stack([np.interp(wanted, known, column) for column in logarithms.T])
+    return np.exp(found).reshape(len(omegas), *values.shape[1:])

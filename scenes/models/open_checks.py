@@ -18,6 +18,8 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
+_DEEPEST = 1e8  # over the extent of bodies
+
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield keys of a closed tank that are reserved for open water."""
@@ -232,6 +234,19 @@ def drag_is_heeded(scene: TankParts) -> Iterator[InitErrorDetails]:
                 analysis.kind,
                 "a free motion with quadratic damping is not a sum of exponentials",
                 remedy='Leave out quadratic_damping, or ask for kind = "motion" with a displacement',
+            )
+
+
+def depths_can_be_meshed(scene: TankParts, extent: float) -> Iterator[InitErrorDetails]:
+    """Yield finite depths beside which double precision has no places for cells of bodies of an extent, m."""
+    deepest = _DEEPEST * extent
+    for index, layer in enumerate(scene.layers):
+        if deepest < layer.depth < inf:
+            yield problem_at(
+                ("liquid", index, "depth"),
+                layer.depth,
+                "the layer is too deep to mesh beside the bodies",
+                allowed=f"at most {deepest:g} m, or inf",
             )
 
 

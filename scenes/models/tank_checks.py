@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import accumulate, pairwise
-from math import inf
 from typing import TypeAlias, TypeVar
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, DEEPEST, floats_are_in_equilibrium
+from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_are_in_equilibrium
 from hydroelastic.scenes.models.open_checks import (
     bodies_are_all_sections_or_all_solids,
     closed_tanks_have_no_open_water_keys,
     decaying_bodies_are_floats,
+    depths_can_be_meshed,
     frequencies_and_times_can_be_resolved,
     length_scale_of_bodies,
     open_water_beams_have_free_ends,
@@ -140,17 +140,18 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
 def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     """The absorbing layer is as deep as needed: open water may be deep."""
     length = length_scale_of_bodies(scene)
-    # The extent of floats is that of their positions: their own depth is among the checks of floats.
-    least, most = DEPTH_TO_LENGTH[0] * length, DEEPEST * length if length else inf
+    least = DEPTH_TO_LENGTH[0] * length
     for index, layer in enumerate(scene.layers):
-        if layer.depth < least or most < layer.depth < inf:
-            thin = layer.depth < least
+        if layer.depth < least:
             yield problem_at(
                 ("liquid", index, "depth"),
                 layer.depth,
-                f"the layer is too {'thin' if thin else 'deep'} to mesh beside the length that the bodies take up",
-                allowed=f"{least:g} to {most:g} m, or inf",
+                "the layer is too thin to mesh beside the length that the bodies take up",
+                allowed=f"at least {least:g} m",
             )
+    # One float alone has no length here: its section tells.
+    if length:
+        yield from depths_can_be_meshed(scene, length)
 
 
 def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:

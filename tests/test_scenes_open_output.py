@@ -159,6 +159,21 @@ def test_every_analysis_has_its_curves(tmp_path: Path) -> None:
             assert len(image.convert("L").resize((200, 100)).getcolors() or ()) > 10
 
 
+@pytest.mark.parametrize("height", [100.0, 2.0])
+def test_a_narrow_peak_far_above_all_else_leaves_the_axes(tmp_path: Path, height: float) -> None:
+    """Its legend tells how high it is, and where; one that is not far above stays inside."""
+    solution = two_bodies([{"kind": "response", "omega": [1.0]}])
+    (response,) = solution.response
+    omega = np.linspace(0.5, 1.5, 201)
+    sizes = np.ones((201, *response.amplitudes.shape[1:]))
+    sizes[101, 0, 0] = height
+    ratios = np.repeat(response.reflection, 201, axis=0)
+    curve = replace(response, omega=omega, amplitudes=sizes, reflection=ratios, transmission=ratios)
+    draw_open(replace(solution, response=(replace(response, curve=curve),)), tmp_path, PictureOptions(formats=("svg",)))
+    told = f"up to {height:.3g} at 1.005 rad/s" in (tmp_path / "response_1.svg").read_text(encoding="utf-8")
+    assert told == (height == 100.0)
+
+
 SCENE = CIRCLE_IN_OPEN_WATER + '[[analysis]]\nkind = "radiation"\nomega = [1.0, inf]\n'
 
 

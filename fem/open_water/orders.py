@@ -34,7 +34,7 @@ from hydroelastic.fem.open_water.requests import (
     ResponseRequest,
 )
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
-from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
+from hydroelastic.fem.open_water.response import ResponseSolution, drawn, drawn_tolerance, solve_response
 from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
@@ -136,7 +136,18 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
         hulls = found[0].table.hulls if found else ()
         found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request, hulls))
-    return replace(_largest(found), table=_response(problem, found), error=_error(found))
+    table = replace(_response(problem, found), curve=_curve(problem, request, found))
+    return replace(_largest(found), table=table, error=_error(found))
+
+
+def _curve(problem: OpenWaterProblem, request: ResponseRequest, found: list[ResponseSolution]) -> ResponseTable | None:
+    """Join the curves of the orders at the frequencies of all of them (collective)."""
+    curves = [one.curves for one in found if one.curves is not None]
+    if not curves:
+        return None
+    omegas = np.unique(np.concatenate([one.omegas for one in curves]))
+    tables = [drawn(request, one.at(omegas, drawn_tolerance(problem))) for one in curves]
+    return _motions_and_waves(problem, tables)
 
 
 def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
@@ -151,39 +162,43 @@ def _matters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
     return max(float(np.abs(values).max()) for values in found) > problem.tolerance
 
 
+def _motions_and_waves(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
+    dofs = _dofs(problem, *tables)
+    waves = [table.partial_waves for table in tables if table.partial_waves is not None]
+    absorption = [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)]
+    return replace(
+        tables[0],
+        dofs=dofs,
+        amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
+        partial_waves=np.concatenate(waves, axis=-1),
+        absorption=np.sum(absorption, axis=0),
+        energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
+        relative_error=np.max([table.relative_error for table in tables], axis=0),
+    )
+
+
 def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> ResponseTable:
     tables = [one.table for one in found]
-    dofs = _dofs(problem, *tables)
-    waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
-    peaks = [peak for table in tables for peak in table.missed_peaks]
+    whole = _motions_and_waves(problem, tables)
+    assert whole.partial_waves is not None
     plates = tuple(joined(list(parts)) for parts in zip(*(table.round_plates for table in tables), strict=True))
-    error = np.max([table.relative_error for table in tables], axis=0)
     # Errors of the orders add up in the deflection.
     added = np.sum([table.relative_error for table in tables], axis=0)
-    first = tables[0]
-    if len(first.waves) > 1:
-        drift, drift_error = np.full((2, len(first.omega)), np.nan)
+    if len(whole.waves) > 1:
+        drift, drift_error = np.full((2, len(whole.omega)), np.nan)
     else:
         drift, drift_error = drift_of_orders(
-            drift_widths(problem.tank, first.omega)[1],
-            waves[:, 0, 0],
+            drift_widths(problem.tank, whole.omega)[1],
+            whole.partial_waves[:, 0, 0],
             np.stack([one.wave_errors for one in found], axis=1),
             np.array([table.energy_residual[:, 0] for table in tables]).T,
         )
-        drift = direction_of(first.waves_from) * drift.sum(axis=1)
+        drift = direction_of(whole.waves_from) * drift.sum(axis=1)
     return replace(
-        first,
-        dofs=dofs,
-        amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
-        partial_waves=waves,
+        whole,
         drift_force=drift[:, None],
         drift_error=drift_error[:, None],
-        absorption=np.sum(
-            [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
-        ),
-        energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
-        relative_error=error,
-        missed_peaks=tuple(peaks),
+        missed_peaks=tuple(peak for table in tables for peak in table.missed_peaks),
         plates=tuple(with_largest(problem.tank, along_diameter(problem.tank, plate, added), plate) for plate in plates),
         round_plates=plates,
         hulls=tuple(_around(list(parts)) for parts in zip(*(table.hulls for table in tables), strict=True)),

@@ -73,7 +73,8 @@ def _around(radii: np.ndarray, orders: np.ndarray, r: np.ndarray, angle: np.ndar
 
 
 def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[PlanWaves]:
-    """Yield the elevation where the motion of a body is largest, on rank 0 (collective).
+    """Yield the elevation at the frequencies asked for, or else where the motion of a body is largest, on rank 0
+    (collective).
 
     Args:
         problem: the sea with solids of revolution.
@@ -82,22 +83,51 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
     """
     if table.partial_waves is None or len(table.waves) > 1 or table.waves_from != "left":
         return
-    # Where plates bend most, or else bodies move most.
+    omegas = table.fields_at or (_of_largest_motion(table),)
+    for place, omega in enumerate(omegas, 1):
+        band = Band(lowest=omega, highest=omega)
+        radii, orders = _scattered(problem, band, table.partial_waves.shape[-1])
+        if problem.comm.rank:
+            continue
+        row = int(np.abs(table.omega - omega).argmin())
+        bodies = [body.waterplane for body in problem.tank.bodies if not body.flexural_sections]
+        why = "" if table.fields_at else ", where a motion is largest"
+        yield PlanWaves(
+            name=f"response_{number}" + (f"_{place:03d}" if len(omegas) > 1 else ""),
+            title=f"Waves from the left around the bodies at ω = {omega:.5g} rad/s{why}",
+            omega=omega,
+            radii=radii,
+            wavenumber=band.wavenumbers(problem.tank)[1],
+            phase_at=problem.tank.phase_at,
+            orders=orders,
+            waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
+            plates=tuple(
+                (plate.radii, plate.derivatives[0, row, 0])
+                for plate in table.round_plates
+                if problem.tank.bodies[plate.body].flexural_sections
+            ),
+        )
+
+
+def _of_largest_motion(table: ResponseTable) -> float:
+    """Where plates bend most, or else bodies move most, rad/s."""
     shown = [dof for dof in table.dofs if dof.is_elastic] or [dof for dof in table.dofs if not dof.is_rotation]
     sizes = np.where([dof in shown for dof in table.dofs], np.abs(table.amplitudes[:, 0]), 0.0).max(axis=1)
-    row = int(np.argmax(sizes))
-    omega = float(table.omega[row])
-    rough, band = problem.rough(), Band(lowest=omega, highest=omega)
-    # From the axis to two wavelengths beyond the bodies.
+    return float(table.omega[np.argmax(sizes)])
+
+
+def _scattered(problem: OpenWaterProblem, band: Band, orders: int) -> tuple[np.ndarray, np.ndarray]:
+    """Radii, m, to two wavelengths beyond the bodies, and εₙ iⁿ λψₙ/η̂ of the orders there (collective)."""
     reach = max(right for _, right in (body.waterplane for body in problem.tank.bodies))
     reach += _RADIANS / band.wavenumbers(problem.tank)[1]
+    rough = problem.rough()
     rough = replace(rough, tank=replace(rough.tank, start=-reach, length=2.0 * reach))
     parts = []
-    for order in range(table.partial_waves.shape[-1]):
+    for order in range(orders):
         own = rough.of_order(order)
         resolution = first_resolution(own.tank, own.tolerance, band, drawn=_RADIANS)
         model = open_model(own, band, resolution, drawn=_RADIANS)
-        found = OpenSolver(model, problem.watch).response(omega, [0])
+        found = OpenSolver(model, problem.watch).response(band.lowest, [0])
         wave = found.incidence.planes[0]
         assert isinstance(wave, Circular)
         psi = found.squared * found.scattered[0] / wave.elevation
@@ -105,22 +135,5 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         r, (real, imaginary) = along_the_surface(model.pencil.liquid, vectors, model.basin.bounds[1][0])
         scattered = real + 1j * imaginary
         parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * scattered))
-    if problem.comm.rank:
-        return
     radii = parts[0][0]
-    bodies = [body.waterplane for body in problem.tank.bodies if not body.flexural_sections]
-    yield PlanWaves(
-        name=f"response_{number}",
-        title=f"Waves from the left around the bodies at ω = {omega:.5g} rad/s, where a motion is largest",
-        omega=omega,
-        radii=radii,
-        wavenumber=band.wavenumbers(problem.tank)[1],
-        phase_at=problem.tank.phase_at,
-        orders=np.array([np.interp(radii, r, values) for r, values in parts]),
-        waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
-        plates=tuple(
-            (plate.radii, plate.derivatives[0, row, 0])
-            for plate in table.round_plates
-            if problem.tank.bodies[plate.body].flexural_sections
-        ),
-    )
+    return radii, np.array([np.interp(radii, r, values) for r, values in parts])

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.curves import refined_curves
+from hydroelastic.fem.open_water.curves import Curves, refined_curves
 from hydroelastic.fem.open_water.drift_errors import drift_errors
 from hydroelastic.fem.open_water.drift_of_orders import wave_errors
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
@@ -40,12 +40,14 @@ class ResponseSolution:
         model: the last field model.
         error: the largest relative error.
         wave_errors: about an axis errors of the amplitudes of waves, see `drift_of_orders`, shape (n, 3).
+        curves: responses between more than six frequencies, to be drawn.
     """
 
     table: ResponseTable
     model: OpenModel
     error: float
     wave_errors: np.ndarray
+    curves: Curves | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,23 +116,32 @@ def solve_response(
     table = found.table
     if request.hull_pressures:
         table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors, like))
+    curves = None
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
-    if len(omegas) > FEW and not problem.tank.geometry.is_revolved:
-        # Of several azimuthal orders each would have frequencies of its own.
         incident = incident_places(model, request.waves_from)
-        curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
-        table = replace(table, curve=_drawn(request, model, curves.omegas, curves.responses, curves.errors))
-    return ResponseSolution(table=table, model=model, error=attempt.error, wave_errors=found.wave_errors)
+        curves = refined_curves(found.solver, incident, omegas, found.swept, drawn_tolerance(problem))
+        if not problem.tank.geometry.is_revolved:
+            table = replace(table, curve=drawn(request, curves))
+    return ResponseSolution(table=table, model=model, error=attempt.error, wave_errors=found.wave_errors, curves=curves)
 
 
-def _drawn(
+def drawn_tolerance(problem: OpenWaterProblem) -> float:
+    """Return the largest part of a motion by which its drawn curve may miss it."""
+    return max(_DRAWN, problem.tolerance)
+
+
+def drawn(request: ResponseRequest, curves: Curves) -> ResponseTable:
+    """Return motions and waves along curves, with the errors by the reduced basis alone."""
+    return _of_basis(request, curves.solver.model, curves.omegas, curves.responses, curves.errors)
+
+
+def _of_basis(
     request: ResponseRequest, model: OpenModel, omegas: np.ndarray, responses: list[OpenResponse], reduced: np.ndarray
 ) -> ResponseTable:
-    """Responses on the reduced basis, with its errors alone."""
     drift = np.full((len(omegas), len(responses[0].incident)), np.nan)
     errors = ResponseErrors(total=reduced, reduced=reduced, drift=drift)
-    return response_table(request, model, omegas, responses, errors)
+    return response_table(request, model, omegas, responses, errors, with_plates=False)
 
 
 def _on_hulls(
@@ -162,7 +173,7 @@ def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTab
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
-        return _drawn(request, solver.model, omegas, solutions, np.full(len(omegas), np.nan))
+        return _of_basis(request, solver.model, omegas, solutions, np.full(len(omegas), np.nan))
 
     return unresolved_peaks(table, solver.resonances_between(), between)
 

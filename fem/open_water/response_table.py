@@ -12,7 +12,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable
+from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, RoundDeflection
 from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
 from hydroelastic.physics.attachments import REGULAR
 
@@ -40,8 +40,10 @@ def response_table(
     omegas: np.ndarray,
     solutions: list[OpenResponse],
     errors: ResponseErrors,
+    *,
+    with_plates: bool = True,
 ) -> ResponseTable:
-    """Return the table of responses at frequencies ω, rad/s, shape (n,)."""
+    """Return the table of responses at frequencies ω, rad/s, shape (n,), with what acts along plates or without it."""
     first = solutions[0]
     count = len(first.incident)
     waves = np.array([solution.ratios() for solution in solutions])
@@ -66,18 +68,8 @@ def response_table(
         drift_error=_per_elevation(solutions, errors.drift),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors.total,
-        plates=tuple(_plates(request, model, solutions, errors)),
-        round_plates=tuple(
-            deflections_of_order(
-                model,
-                solutions,
-                _moved(request, model, solutions),
-                towards,
-                errors.reduced,
-                errors.of_loads,
-                lambda index: model.basin.units.length * radii_along(model.basin.tank, index, request.positions),
-            )
-        ),
+        plates=tuple(_plates(request, model, solutions, errors)) if with_plates else (),
+        round_plates=tuple(_round_plates(request, model, solutions, errors)) if with_plates else (),
         fields_at=request.fields_at,
     )
 
@@ -105,6 +97,20 @@ def _moved(
         speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
         found.append((solution.motions, REGULAR * outside.drag * speeds))
     return found
+
+
+def _round_plates(
+    request: ResponseRequest, model: OpenModel, solutions: list[OpenResponse], errors: ResponseErrors
+) -> Iterator[RoundDeflection]:
+    return deflections_of_order(
+        model,
+        solutions,
+        _moved(request, model, solutions),
+        direction_of(request.waves_from),
+        errors.reduced,
+        errors.of_loads,
+        lambda index: model.basin.units.length * radii_along(model.basin.tank, index, request.positions),
+    )
 
 
 def _plates(

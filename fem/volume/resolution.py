@@ -163,7 +163,8 @@ def _of_degree(
     eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
-    bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
+    shortest = max(water_wavenumber(tank, eigenvalue), *wavenumbers, radians / _LARGEST)
+    bulk = min(radians / shortest, 2.0 * tank.depth)
     if tank.baffles:
         order, part, layers = 1.0, _OF_LAYERED_TIPS[degree] if layered else _OF_TIPS, _LAYERS_OF_TIPS
     elif _has_corners(tank):

@@ -79,8 +79,8 @@ class Response(SceneModel):
     )
     fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
         default=(),
-        description="frequencies, rad/s, at which fields of sections are written and drawn; by default where a motion "
-        "is largest",
+        description="frequencies, rad/s, at which fields of sections are written and drawn, or waves around solids are "
+        "drawn in plan; by default where a motion is largest",
     )
 
     @property

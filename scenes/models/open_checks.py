@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, isinf, sqrt
+from math import inf, isclose, isinf, sqrt
 
 from pydantic_core import InitErrorDetails
 
@@ -158,14 +158,6 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        if getattr(analysis, "fields_at", ()):
-            yield problem_at(
-                ("analysis", index, "fields_at"),
-                None,
-                "fields are chosen of sections only; about solids of revolution the waves are drawn in plan, where a "
-                "motion is largest",
-                remedy="Leave it out",
-            )
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
             yield problem_at(
                 ("analysis", index, "largest_damping"),
@@ -173,6 +165,31 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 "such strongly damped resonances are computed for sections only",
                 allowed=f"at most {MOST_DAMPING_ANYWHERE:g}",
             )
+
+
+def plan_views_are_of_waves_solved_for(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield frequencies of fields about solids, of which the waves that come are drawn in plan, that do not exist."""
+    has_plates = any(isinstance(body, SeaPlate) for body in scene.body)
+    for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
+        asked = getattr(analysis, "fields_at", ())
+        if not isinstance(analysis, Response) or len(scene.liquid) > 1 or analysis.waves_from == "right":
+            if asked:
+                yield problem_at(
+                    ("analysis", index, "fields_at"),
+                    list(asked),
+                    "of solids of revolution only the response to waves from the left in one liquid is drawn, in plan",
+                    remedy="Leave it out",
+                )
+            continue
+        for omega in asked:
+            is_known = any(isclose(omega, one) for one in analysis.omega)
+            if not (is_known or (not has_plates and min(analysis.omega) <= omega <= max(analysis.omega))):
+                yield problem_at(
+                    ("analysis", index, "fields_at"),
+                    omega,
+                    "the response is not solved for there",
+                    allowed="the frequencies of omega" + ("" if has_plates else ", and those between them"),
+                )
 
 
 def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetails]:

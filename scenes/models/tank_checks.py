@@ -20,6 +20,7 @@ from hydroelastic.scenes.models.open_checks import (
     length_scale_of_bodies,
     open_water_beams_have_free_ends,
     open_water_is_complete,
+    plan_views_are_of_waves_solved_for,
     resonance_regions_are_covered_by_theory,
 )
 from hydroelastic.scenes.models.problems import problem_at
@@ -344,6 +345,7 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
         bodies_are_all_sections_or_all_solids,
         decaying_bodies_are_floats,
         frequencies_and_times_can_be_resolved,
+        plan_views_are_of_waves_solved_for,
         resonance_regions_are_covered_by_theory,
         sea_points_lie_on_bodies,
     ),

@@ -28,6 +28,8 @@ _MOST_MOTIONS = 12
 _MOST_FORCES = 6
 # Times whose steps differ so much are spread logarithmically.
 _SPREAD = 5.0
+# A peak over less than this part of the frequencies leaves the axes where it is so many times as high as all else.
+_NARROW, _HIGH = 0.02, 2.5
 _FREQUENCY = "angular frequency ω, rad/s"
 
 
@@ -133,11 +135,13 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
             _plot_widths(first, table, order)
         number = 0
         for axes, (turns, places) in zip(others, groups, strict=True):
-            for motion in places:
-                for incident, which in enumerate(_incident(table)):
-                    size = np.abs(table.amplitudes[order, incident, motion])
-                    plot_curve(axes, table.omega[order], size, number, table.dofs[motion].words + which)
-                    number += 1
+            sizes = {
+                table.dofs[motion].words + which: np.abs(table.amplitudes[order, incident, motion])
+                for motion in places
+                for incident, which in enumerate(_incident(table))
+            }
+            _plot_sizes(axes, table.omega[order], sizes, number)
+            number += len(sizes)
             label_axes(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
             if len(largest) < len(table.dofs):
                 axes.set_title(f"the {len(largest)} largest of {len(table.dofs)} motions")
@@ -157,13 +161,32 @@ def _plot_waves(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
 
 def _plot_widths(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
     """Power that solids of revolution scatter and absorb, over that of a metre of crest."""
-    scattered = scattering_width(table)
+    sizes, scattered = {}, scattering_width(table)
     if scattered is not None:
-        plot_curve(axes, table.omega[order], scattered[order, 0], 0, "scattering width")
+        sizes["scattering width"] = scattered[order, 0]
     if table.absorption.any():
-        width = table.absorption[order, 0] / table.wavenumbers[order, 0]
-        plot_curve(axes, table.omega[order], width, 1, "capture width")
+        sizes["capture width"] = table.absorption[order, 0] / table.wavenumbers[order, 0]
+    _plot_sizes(axes, table.omega[order], sizes)
     label_axes(axes, _FREQUENCY, "width, m")
+
+
+def _plot_sizes(axes: Axes, omega: np.ndarray, sizes: dict[str, np.ndarray], first: int = 0) -> None:
+    """Sizes over ascending ω. Narrow peaks far above all else leave the axes, and the legend tells their height."""
+    limit = _HIGH * max((_passed(omega, size) for size in sizes.values()), default=0.0)
+    for number, (words, size) in enumerate(sizes.items(), first):
+        peak = int(np.argmax(size))
+        height = f", up to {size[peak]:.3g} at {omega[peak]:.4g} rad/s" if size[peak] > limit > 0.0 else ""
+        plot_curve(axes, omega, size, number, words + height)
+        if height:
+            axes.set_ylim(-0.05 * limit, limit)
+
+
+def _passed(omega: np.ndarray, size: np.ndarray) -> float:
+    """The size that is passed over the part `_NARROW` of the frequencies."""
+    descending = np.argsort(-size)
+    widths = np.gradient(omega)[descending] if len(omega) > 1 else np.ones(1)
+    place = np.searchsorted(np.cumsum(widths), _NARROW * widths.sum())
+    return float(size[descending[place]])
 
 
 def _incident(table: RadiationTable | ResponseTable) -> list[str]:

@@ -121,6 +121,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
         if not known.all():
             axes.plot([], [], ":", color=GREY, linewidth=1.2, label="across a front")
         label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
+        axes.locator_params(axis="x", nbins=6)
 
 
 def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:

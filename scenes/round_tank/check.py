@@ -29,16 +29,21 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
     if scene.is_revolved:
         what = (
             f"A tank of revolution of radius {scene.tank.length:g} m with a {bed}, order by order in the half-plane "
-            "(r, z): ψ cos nθ, heave in order 0, surge and pitch in order 1."
+            "(r, z): ψ cos nθ"
         )
+        moved = ", heave in order 0, surge and pitch in order 1"
     else:
         what = (
             f"A section of {scene.tank.length:g} m with a {bed} over a width B = {scene.tank.width:g} m, order by "
-            "order: ψ cos(nπs/B) across it; floats move in order 0."
+            "order: ψ cos(nπs/B) across it"
         )
+        moved = "; floats move in order 0"
     yield Section(
         title="What is asked",
-        lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.", what),
+        lines=(
+            f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",
+            f"{what}{moved if scene.floats else ''}.",
+        ),
     )
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     if scene.body:
@@ -48,6 +53,8 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
 def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:
     where = "in the half-plane (r, z)" if scene.is_revolved else "in the section"
     yield "ψ", f"{where}, of each order", "an ideal liquid that starts from rest has a potential"
+    if len(scene.liquid) > 1:
+        yield "η", "on the interface of the liquids", "it keeps internal waves"
     if scene.tank.top == "free":
         yield "η", "on the still surface", "it keeps gravity waves"
     for index, body in scene.floats:

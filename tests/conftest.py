@@ -40,8 +40,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     lost = [test for test, fast in kept.items() if not fast]
     if lost and not ON_RANKS and not any("::" in argument for argument in config.args):
         raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
+    column = "seconds" if "not slow" in config.option.markexpr else "seconds_of_all"
     with SLOWEST.open(encoding="utf-8", newline="") as file:
-        seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}
+        seconds = {row["file"]: float(row[column]) for row in csv.DictReader(file)}
     items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
 
 

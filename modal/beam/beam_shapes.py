@@ -117,11 +117,12 @@ class _AllAtOnce:
 
     def __init__(self, deflections: Callable[[Array], Array]) -> None:
         self._deflections = deflections
-        self._points: Array = np.empty(0)
+        self._points: Array | None = None
         self._values: Array = np.empty((0, 0))
 
     def __call__(self, number: int, x: Array) -> Array:
-        if not np.array_equal(x, self._points):
+        # Also at no points, where a process has none, there are as many shapes.
+        if self._points is None or not np.array_equal(x, self._points):
             self._values = self._deflections(x)
             self._points = x.copy()
         values: Array = self._values[number]

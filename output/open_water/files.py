@@ -8,6 +8,7 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.open_water.declarations import own_array
 from hydroelastic.output.open_water.hull_pressures import ALONG_HULL, HULLS
 from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
@@ -54,6 +55,23 @@ STRAIN = Group(
 """Columns of the table of strains."""
 
 
+_CURVE = Group(
+    "response_curve",
+    "response between the frequencies",
+    (
+        *(RESPONSE[key] for key in ("omega", "waves_from", "waves", "reflection", "transmission", "amplitudes")),
+        *(RESPONSE[key] for key in ("absorption", "drift_force")),
+        own_array(
+            "basis_error",
+            "estimated relative error by the reduced basis",
+            "omega",
+            lambda it: it.relative_error,
+            column="basis_error",
+        ),
+    ),
+)
+
+
 _PRESSURE = Group(
     "pressure",
     "pressure along a hull",
@@ -73,9 +91,9 @@ def open_columns(group: Group, table: Any, rows: tuple[str, ...] = ()) -> Iterat
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
-    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``pressure.csv``, ``resonance.csv``,
-    ``decay.csv``, ``spectrum.csv``, ``motion.csv``, ``impulse_response.csv`` and, with what this gives back in the
-    frequency domain, ``impulse_response_check.csv``.
+    """Write ``radiation.csv``, ``response.csv``, ``response_curve.csv``, ``deflection.csv``, ``pressure.csv``,
+    ``resonance.csv``, ``decay.csv``, ``spectrum.csv``, ``motion.csv``, ``impulse_response.csv`` and, with what this
+    gives back in the frequency domain, ``impulse_response_check.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
@@ -91,6 +109,11 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups
     }
+    files["response_curve"] = csv_columns(
+        (number, open_columns(_CURVE, table.curve, ROWS["response"]))
+        for number, table in enumerate(solution.response, 1)
+        if table.curve is not None
+    )
     files["deflection"] = csv_columns(
         (number, columns_of(_DEFLECTION, plate, ("omega", "wave", ALONG_BEAM), {}))
         for number, table in enumerate(RESPONSE.of(solution), 1)

@@ -20,6 +20,7 @@ from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.estimates import THIN_FLOAT_ROWS
 from hydroelastic.output.open_water.files import STRAIN, open_columns
 from hydroelastic.output.open_water.irregular import SPECTRUM
+from hydroelastic.output.open_water.linear_limits import beyond_linear_theory
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
@@ -39,7 +40,8 @@ _MOST_MOTIONS = 4
 
 
 def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
-    """Yield the bodies at rest, the tables by analysis, and the comparison with the thin-float theory.
+    """Yield the bodies at rest, the tables by analysis, the limits of the model, and the comparison with the thin-float
+    theory.
 
     Args:
         solution: the solution.
@@ -58,6 +60,7 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
     for spectrum in SPECTRUM.of(solution):
         yield from _spectrum(spectrum, whole)
     yield from sections_over_time(solution, whole)
+    yield from beyond_linear_theory(solution)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)

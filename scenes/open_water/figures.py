@@ -70,7 +70,9 @@ def _draw_spectrum(table: SpectrumTable, sheets: Sheets, name: str) -> None:
             for number, place in enumerate(own):
                 words = Dof(table.quantities[place]).words
                 plot_curve(axes, table.omega, table.response_density[:, place], number, words)
-            label_axes(axes, _FREQUENCY, f"spectrum of the response, ({unit})²·s/rad")
+            # Strain has the unit 1.
+            squared = "" if unit == "1" else f"{unit}²·" if unit.isalpha() else f"({unit})²·"
+            label_axes(axes, _FREQUENCY, f"spectrum of the response, {squared}s/rad")
 
 
 def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: bool) -> None:

@@ -270,7 +270,6 @@ class LiquidSolver:
         block = matrix.copy()
         block.zeroRowsColumns((constrained + matrix.getOwnershipRange()[0]).astype(PETSc.IntType), diag=1.0)
         self._solver = direct_solver(block)
-        self._solver.setUp()
         self._rhs = block.createVecRight()
         self._held = constrained
         self._closed = closed

@@ -18,6 +18,7 @@ from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.numbering import numbered
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import surface_load as surface_load_of
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 
 pytestmark = pytest.mark.mpi
@@ -262,3 +263,10 @@ def test_condensed_unknowns_inside_of_cells_follow_as_solved(tanks: Any) -> None
     (found,) = cell_values(condensed, [solved(pencil, load)])
     # The operator's condition times a double's rounding.
     assert np.abs(found - expected).max() <= ROUND_OFF * np.abs(expected).max()
+
+
+def test_a_matrix_that_is_not_positive_definite_is_refused(water: CoupledPencil) -> None:
+    matrix = water.laplace.copy()
+    matrix.zeroRowsColumns([matrix.size[0] // 2], diag=0.0)
+    with pytest.raises(EigenSolverError, match="not positive definite"):
+        LiquidSolver(matrix, constrained_dofs(water.liquid), ())

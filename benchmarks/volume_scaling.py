@@ -14,7 +14,6 @@ the others.
 from __future__ import annotations
 
 import csv
-import gc
 import json
 import subprocess
 import sys
@@ -29,12 +28,11 @@ import ufl
 from dolfinx import fem, la
 from dolfinx.mesh import create_box, entities_to_geometry, locate_entities_boundary
 from mpi4py import MPI
-from petsc4py import PETSc
 
 from hydroelastic.benchmarks.peers import peer_folder
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import LiquidSpace, closed_layer, liquid_space
-from hydroelastic.fem.memory import peak_memory
+from hydroelastic.fem.memory import peak_memory, release_matrices
 from hydroelastic.fem.shape_loads import surface_load
 from hydroelastic.fem.volume.matrices import volume_laplace
 from hydroelastic.fem.volume.multigrid import MultigridSolver
@@ -135,9 +133,8 @@ def measured(
     values = (comm.size, degree, liquid.size, error, solver.iterations, *np.diff(times), whole, largest)
     own, row = tank.mesh.comm, dict(zip(COLUMNS, values, strict=True))
     del solver, load, potential, laplace
-    gc.collect()
-    # On several processes PETSc keeps matrices until all of them let go: they would count in the next size.
-    PETSc.garbage_cleanup(own)
+    # They would count in the next size.
+    release_matrices(own)
     return row
 
 

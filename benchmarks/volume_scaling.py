@@ -4,7 +4,7 @@
     ./hydro mpirun -n 2 python -m hydroelastic.benchmarks.volume_scaling --degree 4 1e5
     ./hydro python -m hydroelastic.benchmarks.volume_scaling --ngsolve --processor 1e4 1e5
 
-A cube with a free surface is meshed on all processes at once, so that nothing is on one of them alone. Lines of the
+A cube with a free surface is divided on all processes at once, and only its coarse mesh is on one of them. Lines of the
 same unknowns by different numbers of processes are strong scaling, of the same unknowns per process weak scaling. The
 load is that of the wave cos πx cos πy, of which the energy is known: "error" is that of the energy. From three sizes on
 a model of the cost is fitted, a power of the unknowns; its error is that with which it predicts the largest one from
@@ -14,7 +14,6 @@ the others.
 from __future__ import annotations
 
 import csv
-import gc
 import json
 import subprocess
 import sys
@@ -27,19 +26,20 @@ from time import perf_counter, process_time
 import numpy as np
 import ufl
 from dolfinx import fem, la
-from dolfinx.mesh import create_box, locate_entities_boundary, meshtags
+from dolfinx.mesh import create_box, entities_to_geometry, locate_entities_boundary
 from mpi4py import MPI
-from petsc4py import PETSc
 
 from hydroelastic.benchmarks.peers import peer_folder
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import LiquidSpace, closed_layer, liquid_space
-from hydroelastic.fem.memory import peak_memory
+from hydroelastic.fem.memory import peak_memory, release_matrices
 from hydroelastic.fem.shape_loads import surface_load
 from hydroelastic.fem.volume.matrices import volume_laplace
 from hydroelastic.fem.volume.multigrid import MultigridSolver
-from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.meshes.compat import geometry_dofmap
+from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID
+from hydroelastic.meshes.refinement import refined_mesh
 from hydroelastic.output.provenance import largest_memory
 
 COLUMNS = (
@@ -58,22 +58,39 @@ COLUMNS = (
 _K = pi * sqrt(2.0)
 EXACT_ENERGY = 0.25 / (_K * tanh(_K))
 """∫ζψ over the top of a unit cube with ζ = cos πx cos πy: ψ = ζ cosh k(z + 1)/(k sinh k), k = π√2."""
+# Most cells along an edge of the coarse mesh: 83,000 of them, as of tanks.
+_COARSE = 24
 # Sizes that the model is asked for, and solutions for six modes with their count.
 _LARGE, _SOLUTIONS = (1e7, 1e8), 50
 
 
 def cube(comm: MPI.Comm, cells: int) -> TankMesh:
-    """Return a unit cube of some cells along each edge, with its top as still surface (collective)."""
-    mesh = create_box(comm, [np.zeros(3), np.ones(3)], [cells] * 3)
+    """Return a unit cube of some cells along each edge, with its top as still surface (collective).
+
+    As meshes of tanks are, it is coarse on one process, and divided by all.
+    """
+    refinements = 0
+    while cells > _COARSE:
+        cells, refinements = (cells + 1) // 2, refinements + 1
+    whole = _whole_cube(cells) if comm.rank == 0 else None
+    return refined_mesh(distribute_nodes(comm, whole), {}, refinements, curved=False)
+
+
+def _whole_cube(cells: int) -> NodedMesh:
+    mesh = create_box(MPI.COMM_SELF, [np.zeros(3), np.ones(3)], [cells] * 3)
     mesh.topology.create_connectivity(2, 3)
-    top = np.sort(locate_entities_boundary(mesh, 2, lambda x: np.isclose(x[2], 1.0)))
-    own = np.arange(mesh.topology.index_map(3).size_local, dtype=np.int32)
-    return TankMesh(
-        mesh=mesh,
-        facet_tags=meshtags(mesh, 2, top, np.ones(len(top), dtype=np.int32)),
-        facet_names={FREE_SURFACE: 1},
-        cell_tags=meshtags(mesh, 3, own, np.ones(len(own), dtype=np.int32)),
+    top = locate_entities_boundary(mesh, 2, lambda x: np.isclose(x[2], 1.0))
+    nodes = geometry_dofmap(mesh)
+    return NodedMesh(
+        cell="tetrahedron",
+        degree=1,
+        points=mesh.geometry.x,
+        cells=nodes.astype(np.int64),
+        cell_tags=np.ones(len(nodes), dtype=np.int32),
+        facets=entities_to_geometry(mesh, 2, top).astype(np.int64),
+        facet_tags=np.ones(len(top), dtype=np.int32),
         cell_names={LIQUID: 1},
+        facet_names={FREE_SURFACE: 1},
     )
 
 
@@ -116,9 +133,8 @@ def measured(
     values = (comm.size, degree, liquid.size, error, solver.iterations, *np.diff(times), whole, largest)
     own, row = tank.mesh.comm, dict(zip(COLUMNS, values, strict=True))
     del solver, load, potential, laplace
-    gc.collect()
-    # On several processes PETSc keeps matrices until all of them let go: they would count in the next size.
-    PETSc.garbage_cleanup(own)
+    # They would count in the next size.
+    release_matrices(own)
     return row
 
 

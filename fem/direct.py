@@ -4,13 +4,34 @@ from __future__ import annotations
 
 from petsc4py import PETSc
 
+from hydroelastic.fem.solver_error import EigenSolverError
+
+# PETSC_ERR_MAT_CH_ZRPVT, which petsc4py does not name: a pivot of Cholesky's method is not positive.
+_PIVOT = 81
+
 
 def direct_solver(matrix: PETSc.Mat) -> PETSc.KSP:
-    """Cholesky factorization of a symmetric positive definite matrix."""
+    """Cholesky factorization of a symmetric positive definite matrix (collective).
+
+    Raises:
+        EigenSolverError: if the factorization shows that the matrix is not positive definite.
+    """
     matrix.setOption(PETSc.Mat.Option.SPD, True)
     solver = PETSc.KSP().create(matrix.comm)
     solver.setOperators(matrix)
     configure_direct(solver)
+    try:
+        solver.setUp()
+        failed = solver.getPC().getFailedReason() == PETSc.PC.FailedReason.FACTOR_NUMERIC_ZEROPIVOT
+    except PETSc.Error as error:
+        if error.ierr != _PIVOT:
+            raise
+        failed = True
+    if failed:
+        raise EigenSolverError(
+            f"a matrix of {matrix.size[0]} unknowns is not positive definite to working precision: cells are "
+            "degenerate, or stiffnesses and densities differ beyond what double precision resolves"
+        )
     return solver
 
 

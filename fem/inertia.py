@@ -7,9 +7,9 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.solver_error import EigenSolverError
 
 # Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
 _FEW = 150

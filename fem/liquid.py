@@ -266,16 +266,30 @@ class LiquidSolver:
     """
 
     def __init__(self, matrix: PETSc.Mat, constrained: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
-        """Factorize (collective)."""
-        block = matrix.copy()
-        block.zeroRowsColumns((constrained + matrix.getOwnershipRange()[0]).astype(PETSc.IntType), diag=1.0)
-        self._solver = direct_solver(block)
-        self._solver.setUp()
-        self._rhs = block.createVecRight()
+        """Factorize (collective).
+
+        Raises:
+            EigenSolverError: if the matrix is not positive definite.
+        """
+        self._block = matrix.copy()
+        self._block.zeroRowsColumns((constrained + matrix.getOwnershipRange()[0]).astype(PETSc.IntType), diag=1.0)
+        self._solver: PETSc.KSP | None = direct_solver(self._block)
+        self._rhs = self._block.createVecRight()
         self._held = constrained
         self._closed = closed
         self._comm = matrix.comm.tompi4py()
         self.solves = 0
+
+    def release(self) -> None:
+        """Give the factors back; another solution would factorize again (collective)."""
+        if self._solver is not None:
+            self._solver.destroy()
+            self._solver = None
+
+    def _factorized(self) -> PETSc.KSP:
+        if self._solver is None:
+            self._solver = direct_solver(self._block)
+        return self._solver
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
         """``potential`` ← A⁺ ``load`` (both on all unknowns; ``load`` is not changed)."""
@@ -286,7 +300,7 @@ class LiquidSolver:
             for layer, flux in zip(self._closed, fluxes, strict=True):
                 values[layer.dofs] -= flux / layer.measure * layer.load
         values[self._held] = 0.0
-        self._solver.solve(self._rhs, potential)
+        self._factorized().solve(self._rhs, potential)
         if self._closed:
             solution = potential.array
             means = self._sums([layer.load @ solution[layer.dofs] for layer in self._closed])
@@ -307,7 +321,7 @@ class LiquidSolver:
         values[self._held] = 0.0
         answers = np.empty(values.shape, order="F")
         result = PETSc.Mat().createDense(answers.shape, array=answers, comm=PETSc.COMM_SELF)
-        self._solver.getPC().getFactorMatrix().matSolve(right, result)
+        self._factorized().getPC().getFactorMatrix().matSolve(right, result)
         for layer, places, load in zip(self._closed, moving, loads, strict=True):
             answers[layer.dofs] -= load @ answers[places]
         self.solves += answers.shape[1]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 _STATUS = Path("/proc/self/status")
 _RESET = Path("/proc/self/clear_refs")
@@ -69,6 +70,15 @@ def release_memory() -> None:
     # Available in glibc only; other allocators keep less.
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).malloc_trim(0)
+
+
+def release_matrices(comm: MPI.Comm) -> None:
+    """Free what PETSc keeps of the objects that no process uses (collective).
+
+    On several processes it keeps them until all of these let go, which Python does at other times on each.
+    """
+    gc.collect()
+    PETSc.garbage_cleanup(comm)
 
 
 def _kilobytes(name: str) -> int | None:

@@ -16,6 +16,7 @@ from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.mode_energies import energy_shares, residual_of
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
 if TYPE_CHECKING:
@@ -32,10 +33,6 @@ PROJECTED = 1e-11
 _GROWING_VECTORS = 120
 # Neighbouring modes whose ψ is computed together where the answer of the liquid is known.
 _AT_ONCE = 12
-
-
-class EigenSolverError(RuntimeError):
-    """The eigen-solver did not converge."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,8 +16,9 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics, Operator
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.modes import EigenSolverError, Mode, ModeSet, Products, as_made, completed_mode
+from hydroelastic.fem.modes import Mode, ModeSet, Products, as_made, completed_mode
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.solver_error import EigenSolverError
 
 # Vectors of the basis for each mode, beyond which it does not converge.
 _MOST_VECTORS = 12

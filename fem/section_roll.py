@@ -20,12 +20,12 @@ import numpy as np
 from mpi4py import MPI
 from scipy.optimize import root_scalar
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
 from hydroelastic.fem.open_water.resonance import solve_resonance
 from hydroelastic.fem.open_water.results import RadiationTable
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import TaggedMesh

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from dolfinx import graph
 from dolfinx.mesh import GhostMode, create_cell_partitioner
 
 try:  # dolfinx >= 0.10
@@ -13,7 +14,14 @@ try:  # dolfinx >= 0.10
 except ImportError:
     from dolfinx.io.utils import distribute_entity_data
 
-__all__ = ["cell_partitioner", "collapsed", "coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
+__all__ = [
+    "cell_partitioner",
+    "collapsed",
+    "coordinate_degree",
+    "distribute_entity_data",
+    "geometry_dofmap",
+    "given_partition",
+]
 
 
 def geometry_dofmap(mesh: Any) -> Any:
@@ -35,6 +43,13 @@ def cell_partitioner(mode: GhostMode) -> Any:
         return create_cell_partitioner(mode)
     except TypeError:
         return create_cell_partitioner(mode, 2)
+
+
+def given_partition(processes: npt.NDArray[np.int32]) -> Any:
+    """A partitioner of cells whose processes are known, without ghosts."""
+    # A wrapped list from 0.10 on.
+    found = graph.adjacencylist(processes[:, None])
+    return lambda *_mesh: getattr(found, "_cpp_object", found)
 
 
 def collapsed(space: Any, part: int) -> tuple[Any, npt.NDArray[np.int32]]:

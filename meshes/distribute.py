@@ -11,7 +11,8 @@ from dolfinx.mesh import Mesh, MeshTags, create_mesh, meshtags, meshtags_from_en
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.compat import distribute_entity_data
+from hydroelastic.meshes.bisection import bisected
+from hydroelastic.meshes.compat import distribute_entity_data, given_partition
 from hydroelastic.meshes.geometry_nodes import geometry_nodes
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
@@ -126,7 +127,9 @@ def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
         )
     dim = own.points.shape[1]
     element = basix.ufl.element("Lagrange", own.cell, own.degree, shape=(dim,))
-    mesh = create_mesh(comm, cells=own.cells, x=own.points, e=element)
+    parts = bisected(own.points[own.cells[:, : dim + 1]].mean(axis=1), comm.size)
+    partitioner = given_partition(parts) if comm.size > 1 else None
+    mesh = create_mesh(comm, cells=own.cells, x=own.points, e=element, partitioner=partitioner)
     mesh.topology.create_entities(dim - 1)
     mesh.topology.create_connectivity(dim - 1, dim)
     mesh.topology.create_connectivity(dim - 1, 0)

@@ -20,7 +20,7 @@ from answers import answer
 from case_files import TANK_COLUMNS, tank_row, write_cases
 from hard_cases import CASES, TOLERANCES, HardCase
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 
 ROOT = Path(__file__).parents[1]
 COLUMNS = (

@@ -18,6 +18,7 @@ from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.numbering import numbered
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import surface_load as surface_load_of
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 
 pytestmark = pytest.mark.mpi
@@ -262,3 +263,22 @@ def test_condensed_unknowns_inside_of_cells_follow_as_solved(tanks: Any) -> None
     (found,) = cell_values(condensed, [solved(pencil, load)])
     # The operator's condition times a double's rounding.
     assert np.abs(found - expected).max() <= ROUND_OFF * np.abs(expected).max()
+
+
+def test_a_matrix_that_is_not_positive_definite_is_refused(water: CoupledPencil) -> None:
+    matrix = water.laplace.copy()
+    matrix.zeroRowsColumns([matrix.size[0] // 2], diag=0.0)
+    with pytest.raises(EigenSolverError, match="not positive definite"):
+        LiquidSolver(matrix, constrained_dofs(water.liquid), ())
+
+
+def test_factors_that_were_given_back_are_made_again(water: CoupledPencil) -> None:
+    solver = LiquidSolver(water.laplace, constrained_dofs(water.liquid), ())
+    load = random_load(water, 1)
+    before = solved(water, load, solver)
+    solver.release()
+    solver.release()
+    after = solved(water, load, solver)
+    after.axpy(-1.0, before)
+    # The same factorization: rounding of sums over processes only.
+    assert after.norm() <= 1e-12 * before.norm()

@@ -11,6 +11,7 @@ from dolfinx import fem
 from mpi4py import MPI
 from outlines import FLOAT, INTERFACE, LOWER, UPPER, Circle, circle_tank, thin_float_tank, two_liquids
 
+from hydroelastic.meshes.bisection import bisected
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
@@ -36,6 +37,21 @@ def cell_measure(tank: TankMesh, name: str) -> ufl.Measure:
 
 def facet_measure(tank: TankMesh, name: str) -> ufl.Measure:
     return ufl.Measure("ds", tank.mesh, subdomain_data=tank.facet_tags)(tank.facet_names[name])
+
+
+def test_parts_for_processes_are_boxes_of_as_many_places() -> None:
+    places = np.random.default_rng(0).uniform(size=(1000, 3)) * [4.0, 1.0, 1.0]
+    for parts in (1, 2, 7, 64):
+        part_of = bisected(places, parts)
+        counts = np.bincount(part_of, minlength=parts)
+        assert len(counts) == parts
+        # Each of ⌈log₂ 64⌉ = 6 divisions rounds once.
+        assert counts.max() - counts.min() <= 6
+        corners = np.array([[own.min(axis=0), own.max(axis=0)] for own in (places[part_of == n] for n in range(parts))])
+        # Boxes that do not overlap have less volume than all places together.
+        assert np.ptp(corners, axis=1).prod(axis=1).sum() <= 4.0
+    assert np.all(np.diff(places[np.lexsort((places[:, 0], bisected(places, 2)))][:, 0]) > 0.0), "not along the longest"
+    assert len(bisected(places[:0], 3)) == 0
 
 
 def test_each_liquid_has_its_area_and_moments() -> None:

@@ -14,11 +14,11 @@ from open_cases import DENSITY, GRAVITY, RADIUS, circle, problem_of
 from open_tables import open_scene
 from PIL import Image
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import OpenField, open_fields
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.output.pictures.gif import FRAMES
 from hydroelastic.output.pictures.options import PictureOptions

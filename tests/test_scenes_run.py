@@ -11,7 +11,11 @@ import meshio
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from petsc4py import PETSc
 
+from hydroelastic.fem import liquid_matrices
+from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.command_line import main
@@ -358,3 +362,18 @@ def test_ctrl_c_while_writing_leaves_nothing(tmp_path: Path, monkeypatch: pytest
     with pytest.raises(KeyboardInterrupt):
         run_scene(read_scene(scene), out=tmp_path / "made" / "result")
     assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
+
+
+def test_a_matrix_that_is_not_positive_definite_ends_with_a_message(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(liquid: LiquidSpace) -> PETSc.Mat:
+        matrix = laplace_matrix(liquid)
+        matrix.zeroRowsColumns([matrix.size[0] // 2], diag=0.0)
+        return matrix
+
+    monkeypatch.setattr(liquid_matrices, "laplace_matrix", broken)
+    result = invoke("run", written(tmp_path / "small.toml", SCENE), "--no-images", "--out", tmp_path / "out")
+    assert result.exit_code == 3
+    assert "the eigen-solver failed: a matrix of" in result.output
+    assert "is not positive definite" in result.output

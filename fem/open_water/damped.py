@@ -29,7 +29,6 @@ import numpy as np
 from mpi4py import MPI
 from scipy.linalg import eig
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
 from hydroelastic.fem.open_water.field_model import OpenModel
@@ -37,6 +36,7 @@ from hydroelastic.fem.open_water.incident_waves import Standing, surface_integra
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.resonance_search import Eigenpair
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 

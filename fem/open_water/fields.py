@@ -18,7 +18,6 @@ from math import log
 
 import numpy as np
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.incident_waves import Plane
 from hydroelastic.fem.open_water.model_building import first_resolution, open_model
@@ -29,6 +28,7 @@ from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSea
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
 from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
 
 # Motions and resonances of one analysis that are shown.

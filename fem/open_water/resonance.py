@@ -9,7 +9,6 @@ from math import sqrt
 
 import numpy as np
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
@@ -24,6 +23,7 @@ from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import ResonanceTable
 from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import whole_bodies

@@ -21,10 +21,10 @@ from petsc4py import PETSc
 from scipy.linalg import eig
 from slepc4py import SLEPc
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
 from hydroelastic.fem.open_water.pencil import OpenPencil
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
 # Relative norm of v₁ + iv₂ below which an eigenvector is that of a conjugate.

@@ -267,7 +267,6 @@ class PoleOperator:
                 rows = PETSc.IS().createStride(self.liquid.size - 1, first=1, step=1, comm=PETSc.COMM_SELF)
                 matrix = matrix.createSubMatrix(rows, rows)
             solver = direct_solver(matrix)
-            solver.setUp()
             self._solvers.append((number, solver, *matrix.createVecs()))
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:

@@ -90,6 +90,4 @@ def released_plan(space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlat
 def _factorized(stiffness: PETSc.Mat, mass: PETSc.Mat, shift: float) -> PETSc.KSP:
     matrix = stiffness.copy()
     matrix.axpy(float(shift), mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
-    solver = direct_solver(matrix)
-    solver.setUp()
-    return solver
+    return direct_solver(matrix)

@@ -154,7 +154,6 @@ class Collocation:
 
     def _real_system(self, scaled: float) -> Solve:
         solver = direct_solver(self._sum(np.array([1.0, scaled, scaled**2])))
-        solver.setUp()
 
         def solve(load: NDArray[np.complex128]) -> NDArray[np.complex128]:
             self._source.array[:] = load.real

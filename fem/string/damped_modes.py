@@ -18,7 +18,7 @@ from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.string.modes import MODE_DEGREE, StringModes, mode_pencils, rounding, string_modes
 from hydroelastic.fem.string.pencil import StringPencil
 from hydroelastic.fem.string.probe import StringProbe

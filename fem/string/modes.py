@@ -14,7 +14,7 @@ from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.meshes.interrupts import interrupts_deferred

@@ -9,7 +9,7 @@ from typing import Literal
 
 from mpi4py import MPI
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.study.meshes import coarsest_size, full_order_gradings, nested_meshes
 from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.fem.study.rows import mesh_row, tolerance_row

@@ -11,9 +11,10 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import EigenSolverError, Mode
+from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.field_solution import FieldSolution
 from hydroelastic.fem.tank.mesh import tip_points

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.thread.operators import ThreadOperators
 from hydroelastic.meshes.interrupts import interrupts_deferred
 

@@ -9,7 +9,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.thread.eigenpairs import Eigenpair, eigenpairs, is_oscillating, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium
 from hydroelastic.fem.thread.equivalent_damping import QuadraticDecay

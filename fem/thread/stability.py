@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
 from hydroelastic.fem.thread.spectrum import EquilibriumAt, Spectrum, branches, spectrum_at
 

@@ -14,11 +14,12 @@ from dolfinx.fem import petsc as fem_petsc
 from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import EigenSolverError, ModeSet, Products, solve_modes
+from hydroelastic.fem.modes import ModeSet, Products, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.refined_modes import refined_modes
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.volume.model import VolumeModel
 from hydroelastic.fem.volume.pencil import SolverOf
 

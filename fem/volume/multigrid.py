@@ -15,7 +15,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, closed_layers, liquid_space
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.volume.matrices import volume_laplace
 
 # Of Chebyshev's method before and after each coarser level; measured on P4: 14 iterations of 3 steps, 18 of 2.

@@ -17,6 +17,7 @@ from hydroelastic.fem.checkpoint import Checkpoint, unfinished_run
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
+from hydroelastic.fem.memory import release_matrices
 from hydroelastic.fem.modes import Mode, Products, as_made
 from hydroelastic.fem.plan.classes import (
     ClassModes,
@@ -160,7 +161,7 @@ def _solve(
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
         layered = bool(resolution.sizes.layers)
-        require_memory(size, resolution.degree, count, processes, factorized=layered)
+        require_memory(size, resolution.degree, count, processes, problems=model.images, factorized=layered)
         solver_of = partial(direct_or_multigrid, tolerance=tolerance)
         # Multigrid would hardly converge on layers.
         pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
@@ -231,20 +232,34 @@ def _solve(
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
         ),
-        lambda _, solution: solution.model.resolution.refined(solution.errors.first(count), tolerance),
+        lambda _, solution: _refined(solution, count, tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
         failures=(TooLargeError,),
     ).solution
 
 
-def require_memory(unknowns: int, degree: int, modes: int, comm: MPI.Comm, *, factorized: bool = False) -> None:
+def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeResolution | None:
+    """The next resolution, ``None`` where there is none; the factors of the last one are given back (collective)."""
+    finer = solution.model.resolution.refined(solution.errors.first(count), tolerance)
+    if finer is not None:
+        for one in solution.modes.classes:
+            if isinstance(one.pencil.solver, LiquidSolver):
+                one.pencil.solver.release()
+        release_matrices(solution.model.mesh.mesh.comm)
+    return finer
+
+
+def require_memory(
+    unknowns: int, degree: int, modes: int, comm: MPI.Comm, *, problems: int = 1, factorized: bool = False
+) -> None:
     """Refuse a problem that does not fit into the memory of the first process's computer (collective).
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
-    needed, free = memory_needed(unknowns, degree, modes, factorized=factorized), comm.bcast(free_memory())
+    needed = memory_needed(unknowns, degree, modes, problems=problems, factorized=factorized)
+    free = comm.bcast(free_memory())
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

@@ -207,7 +207,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     solver = "a factorization" if layered or unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
     free = free_memory()
     there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
-    needed = memory_needed(unknowns, resolution.degree, modes, factorized=layered) / 2**30
+    needed = memory_needed(unknowns, resolution.degree, modes, problems=parts, factorized=layered) / 2**30
     yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
     shown = "The decay of ψ with the degree" if resolution.degree > 2 else "What the third degree adds to ψ"
     yield f"  {shown}, and the volume of curved cells, show the error; where it is too large"

@@ -64,8 +64,8 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
         UnsolvedError: if the eigen-solver fails.
     """
     require_treated(scene)
-    from hydroelastic.fem.modes import EigenSolverError
     from hydroelastic.fem.plan.solve import solve_smallest_model
+    from hydroelastic.fem.solver_error import EigenSolverError
     from hydroelastic.meshes.tagged_mesh import MeshError
 
     physical = physical_level_tank(scene)

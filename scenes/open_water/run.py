@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.files import write_open_csv

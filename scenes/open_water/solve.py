@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from mpi4py import MPI
 
-from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.decay import DriftingFloatError, UnstableFloatError
 from hydroelastic.fem.open_water.solve import solve_open_water
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.time_domain.motion import UnsolvedMotionError
 from hydroelastic.meshes.tagged_mesh import MeshError

@@ -67,8 +67,8 @@ def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: R
     """
     section = section_scene(scene)
     with watch.stage("import"):
-        from hydroelastic.fem.modes import EigenSolverError
         from hydroelastic.fem.section_roll import SectionRollError, section_roll
+        from hydroelastic.fem.solver_error import EigenSolverError
         from hydroelastic.meshes.tagged_mesh import MeshError
         from hydroelastic.scenes.models.physical import physical_tank
         from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh

@@ -18,7 +18,7 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
         SceneError: if no mesh can be made.
         UnsolvedError: if the eigen-solver fails.
     """
-    from hydroelastic.fem.modes import EigenSolverError
+    from hydroelastic.fem.solver_error import EigenSolverError
     from hydroelastic.fem.tank.round_solution import round_solution
     from hydroelastic.meshes.tagged_mesh import MeshError
 

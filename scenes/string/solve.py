@@ -62,7 +62,7 @@ def solve_string_field(scene: StringScene, comm: MPI.Comm, report: Report = lamb
         UnsolvedError: if the eigen-solver fails.
     """
     # A series needs neither dolfinx nor PETSc.
-    from hydroelastic.fem.modes import EigenSolverError
+    from hydroelastic.fem.solver_error import EigenSolverError
     from hydroelastic.fem.string.solution import field_solution
 
     try:

@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.study.level_tank import LevelReference, LevelRow, level_reference, level_rows
 from hydroelastic.meshes.tagged_mesh import MeshError

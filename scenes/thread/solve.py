@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium, find_equilibrium
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError

@@ -16,6 +16,8 @@ from hydroelastic.fem.spectral_error import missing_energy, straight_coefficient
 
 # Largest kinetic energy beside the known directions, at unit generalized mass: an estimate ε changes by 2√(ε times it).
 _UNKNOWN = 1e-14
+# Of the coefficients: estimates need two digits of them.
+_PRECISION = np.float32
 
 
 class SharedErrors:
@@ -29,7 +31,7 @@ class SharedErrors:
         self._directions = np.empty((len(answer.added_mass), 0))
         self._momenta = self._directions
         # Of each direction: of one polynomial after the other, then of one component of ∇ψ, then of one cell.
-        self._table = np.empty((0, 0, len(self._densities)))
+        self._table = np.empty((0, 0, len(self._densities)), dtype=_PRECISION)
 
     def cells(self, displacements: np.ndarray) -> np.ndarray:
         """Return what `cell_errors` does, shape (modes, cells).
@@ -40,12 +42,11 @@ class SharedErrors:
         unknown = displacements[:, self._beside(displacements) > _UNKNOWN]
         if unknown.shape[1]:
             self._add(unknown)
-        parts = self._momenta.T @ displacements
-        found = parts.T @ self._table.reshape(len(self._table), -1)
-        squares = np.square(found).reshape(displacements.shape[1], *self._table.shape[1:])
+        parts = (self._momenta.T @ displacements).astype(_PRECISION)
+        found = (parts.T @ self._table.reshape(len(self._table), -1)).reshape(-1, *self._table.shape[1:])
         dim = self._liquid.tank.mesh.topology.dim
-        energies = [part.sum(axis=1) for part in np.split(squares, dim * self._starts, axis=1)]
-        errors: np.ndarray = self._densities * missing_energy(*energies)
+        energies = [np.einsum("mpc,mpc->mc", part, part) for part in np.split(found, dim * self._starts, axis=1)]
+        errors: np.ndarray = self._densities * missing_energy(*(one.astype(float) for one in energies))
         return errors
 
     def _beside(self, displacements: np.ndarray) -> np.ndarray:
@@ -71,5 +72,5 @@ class SharedErrors:
         vectors = [PETSc.Vec().createWithArray(one, comm=PETSc.COMM_SELF) for one in potentials.T]
         if vectors:
             found = self._coefficients(cell_values(self._liquid, vectors)).transpose(0, 3, 2, 1)
-            rows = found.reshape(len(vectors), -1, len(self._densities))
+            rows = found.reshape(len(vectors), -1, len(self._densities)).astype(_PRECISION)
             self._table = np.concatenate([self._table, rows]) if len(self._table) else rows

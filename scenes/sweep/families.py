@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
@@ -62,6 +63,7 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
     )
 
 
+@lru_cache(maxsize=256)
 def _liquid_of(scene: Scene | SceneError) -> str:
     """What the liquid of a scene depends on, as a text; "" where it is not shared."""
     if not isinstance(scene, TankScene) or scene.is_open or scene.mesh is not None or not scene.body:

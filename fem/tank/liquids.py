@@ -123,8 +123,9 @@ class SharedLiquids(Liquids):
 
 def _shared(pencil: CoupledPencil) -> CoupledPencil:
     answer = pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0])))
-    if answer is None:
-        return pencil
+    if answer is None or pencil.size == pencil.body_size:
+        # In the infinite-frequency limit no surface moves by itself: there are no gravity modes.
+        return replace(pencil, answer=answer)
     errors = SharedErrors(pencil.liquid, answer).cells if is_straight(pencil.liquid.tank.mesh) else None
     of_surfaces = pencil.volumes[:, pencil.body_size :] @ answer.root
     shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, cell_errors=errors)

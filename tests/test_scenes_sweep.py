@@ -26,7 +26,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank, read_scene, scene_source
 from hydroelastic.scenes.result import solve
 from hydroelastic.scenes.sweep.axes import grid_from_texts
-from hydroelastic.scenes.sweep.families import families
+from hydroelastic.scenes.sweep.families import LAST, families
 from hydroelastic.scenes.sweep.journal import JOURNAL, open_journal
 from hydroelastic.scenes.sweep.result import Sweep, sweep
 
@@ -239,14 +239,22 @@ def test_a_point_that_fails_is_a_row_with_its_reason(folder: Path) -> None:
     assert summary["points"] == {"ok": 2, "unconverged": 0, "failed": 1}
 
 
-def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    arguments = ("swell", "--vary", "roll.damping_ratio=0.2:0.6:3", "--out", str(folder), "--quiet")
+@pytest.mark.parametrize(
+    ("scene", "vary"),
+    # Points of the second one share their liquid, of which the others must have left nothing.
+    [("swell", "roll.damping_ratio=0.2:0.6:3"), ("scene.toml", "body.1.flexural_rigidity=500:1100:4")],
+)
+def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, scene: str, vary: str
+) -> None:
+    arguments = (scene, "--vary", vary, "--no-follow", "--out", str(folder), "--quiet")
     assert invoke(*arguments).exit_code == 0
     files = ("dataset.nc", "sweep.csv", "sweep.png", "summary.json", "summary.md")
     whole = {name: (folder / name).read_bytes() for name in files}
     journal = folder / JOURNAL
     # The process was killed while it wrote the last point.
     journal.write_bytes(journal.read_bytes()[:-200])
+    LAST.clear()
     solved = []
     alone = workers.solve_point
     monkeypatch.setattr(workers, "solve_point", lambda *given: solved.append(given) or alone(*given))

@@ -2,8 +2,8 @@
 
 `cell_errors` needs the coefficients of ∇ψ in each cell, which are linear in ζ. Modes of bodies that share a liquid lie,
 to rounding, in a space of few dimensions: each ζ is a sum of M_a-orthonormal directions, from which its distance is the
-root of a kinetic energy. Where that is not small, there is a further direction; or, once the directions are those of all
-problems, what is beside them has its coefficients computed anew, so that no problem depends on those solved before it.
+root of a kinetic energy. Where that is not small, there is a further direction; or, once directions are no longer added,
+what is beside them has its coefficients computed anew, so that no problem depends on those solved before it.
 """
 
 from __future__ import annotations

@@ -7,9 +7,8 @@ import traceback
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 
-
-# New objects after which Python searches them for cycles; imports make some 300 000, hardly any in cycles, and at Python's
-# own 2 000 the search takes a tenth of the run of a small scene.
+# New objects after which Python searches for cycles. Imports make some 300 000, hardly any in cycles; with
+# Python's own number, 2 000, the searches take a tenth of the run of a small scene.
 _BETWEEN_SEARCHES = 50_000
 
 

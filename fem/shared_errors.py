@@ -2,7 +2,7 @@
 
 `cell_errors` needs the coefficients of ∇ψ in each cell, which are linear in ζ. Modes of bodies that share a liquid lie,
 to rounding, in a space of few dimensions: each ζ is a sum of M_a-orthonormal directions, from which its distance is the
-root of a kinetic energy. Where that is not small, there is a further direction; or, once directions are no longer added,
+root of a kinetic energy. Where that is not small, there is a further direction; or, once none are added any more,
 what is beside them has its coefficients computed anew, so that no problem depends on those solved before it.
 """
 

@@ -196,6 +196,12 @@ def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:
     assert found.plot("response_largest_angle").width > 500
 
 
+def test_estimates_are_made_where_asked_for(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(), modes=3, tolerance=1e-3)
+    made = [sweep(scene, {RIGIDITY: [5e3]}, estimates=asked, follow=False) for asked in (False, True)]
+    assert ["estimate_omega" in one.dataset for one in made] == [False, True]
+
+
 def test_modes_that_are_not_resolved_are_told_like_a_missed_tolerance() -> None:
     solved = sweep("swell", {"roll.damping_ratio": [0.2, 0.4]}).solved
     assert (solved.status, solved.reasons) == ("ok", [])

@@ -1,11 +1,14 @@
 """Frequency errors of many modes of one liquid, whose coefficients are computed once for each direction of motion.
 
 `cell_errors` needs the coefficients of ∇ψ in each cell, which are linear in ζ. Modes of bodies that share a liquid lie,
-to rounding, in a space of few dimensions: each ζ is a sum of M_a-orthonormal directions found so far, in which its
-distance from them is the root of a kinetic energy, and a further direction where that distance is not small.
+to rounding, in a space of few dimensions: each ζ is a sum of M_a-orthonormal directions, from which its distance is the
+root of a kinetic energy. Where that is not small, there is a further direction; or, once none are added any more,
+what is beside them has its coefficients computed anew, so that no problem depends on those solved before it.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from petsc4py import PETSc
@@ -16,20 +19,23 @@ from hydroelastic.fem.spectral_error import missing_energy, straight_coefficient
 
 # Largest kinetic energy beside the known directions, at unit generalized mass: an estimate ε changes by 2√(ε times it).
 _UNKNOWN = 1e-14
+# Of the coefficients: estimates need two digits of them.
+_PRECISION = np.float32
 
 
 class SharedErrors:
     """Error estimates on straight cells, on one process."""
 
-    def __init__(self, liquid: LiquidSpace, answer: LiquidAnswer) -> None:
-        """Begin without directions."""
-        self._liquid, self._answer = liquid, answer
+    def __init__(self, liquid: LiquidSpace, answer: LiquidAnswer, grows: Callable[[], bool]) -> None:
+        """Begin without directions; `grows` tells whether motions beside them become some of them."""
+        self._liquid, self._answer, self._grows = liquid, answer, grows
         self._coefficients, self._starts = straight_coefficients(liquid)
         self._densities = liquid.energy_densities()
         self._directions = np.empty((len(answer.added_mass), 0))
         self._momenta = self._directions
+        _, cells, dim, polynomials = self._coefficients(np.empty((0, *liquid.space.dofmap.list.shape))).shape
         # Of each direction: of one polynomial after the other, then of one component of ∇ψ, then of one cell.
-        self._table = np.empty((0, 0, len(self._densities)))
+        self._table = np.empty((0, polynomials * dim, cells), dtype=_PRECISION)
 
     def cells(self, displacements: np.ndarray) -> np.ndarray:
         """Return what `cell_errors` does, shape (modes, cells).
@@ -37,15 +43,17 @@ class SharedErrors:
         Args:
             displacements: ζ of modes at unit generalized mass, shape (n, modes).
         """
-        unknown = displacements[:, self._beside(displacements) > _UNKNOWN]
-        if unknown.shape[1]:
-            self._add(unknown)
+        beside = self._beside(displacements) > _UNKNOWN
+        if self._grows() and beside.any():
+            self._add(displacements[:, beside])
+            beside[:] = False
         parts = self._momenta.T @ displacements
-        found = parts.T @ self._table.reshape(len(self._table), -1)
-        squares = np.square(found).reshape(displacements.shape[1], *self._table.shape[1:])
+        found = np.tensordot(parts.T.astype(_PRECISION), self._table, 1)
+        if beside.any():
+            found[beside] += self._rows((displacements - self._directions @ parts)[:, beside])
         dim = self._liquid.tank.mesh.topology.dim
-        energies = [part.sum(axis=1) for part in np.split(squares, dim * self._starts, axis=1)]
-        errors: np.ndarray = self._densities * missing_energy(*energies)
+        energies = [np.einsum("mpc,mpc->mc", part, part) for part in np.split(found, dim * self._starts, axis=1)]
+        errors: np.ndarray = self._densities * missing_energy(*(one.astype(float) for one in energies))
         return errors
 
     def _beside(self, displacements: np.ndarray) -> np.ndarray:
@@ -67,9 +75,12 @@ class SharedErrors:
             if energy > _UNKNOWN:
                 self._directions = np.column_stack([self._directions, rest / np.sqrt(energy)])
                 self._momenta = np.column_stack([self._momenta, momentum / np.sqrt(energy)])
-        potentials = self._answer.potentials @ self._directions[:, known:]
+        if self._directions.shape[1] > known:
+            self._table = np.concatenate([self._table, self._rows(self._directions[:, known:])])
+
+    def _rows(self, displacements: np.ndarray) -> np.ndarray:
+        """Rows of the table of some motions."""
+        potentials = self._answer.potentials @ displacements
         vectors = [PETSc.Vec().createWithArray(one, comm=PETSc.COMM_SELF) for one in potentials.T]
-        if vectors:
-            found = self._coefficients(cell_values(self._liquid, vectors)).transpose(0, 3, 2, 1)
-            rows = found.reshape(len(vectors), -1, len(self._densities))
-            self._table = np.concatenate([self._table, rows]) if len(self._table) else rows
+        found = self._coefficients(cell_values(self._liquid, vectors)).transpose(0, 3, 2, 1)
+        return found.reshape(len(vectors), -1, len(self._densities)).astype(_PRECISION)

@@ -115,4 +115,5 @@ def test_directions_of_a_point_do_not_change_the_estimates_of_another(tanks: Tan
         solve_tank(tank_of(tanks, rigidity, 2.0), tolerance=TOLERANCE, modes=4, liquids=single)
     again = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=single)
     assert first.counted
-    assert again.relative_errors == pytest.approx(first.relative_errors, rel=1e-2, nan_ok=True)
+    # To the last digit: a sweep that goes on after an interruption writes the same files.
+    assert np.array_equal(again.relative_errors, first.relative_errors, equal_nan=True)

@@ -3,6 +3,7 @@ again."""
 
 import csv
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,9 +22,11 @@ from hydroelastic.fem.tank.mode_vectors import mode_vectors
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.read import closed_tank, read_scene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.read import closed_tank, read_scene, scene_source
 from hydroelastic.scenes.result import solve
 from hydroelastic.scenes.sweep.axes import grid_from_texts
+from hydroelastic.scenes.sweep.families import LAST, families
 from hydroelastic.scenes.sweep.journal import JOURNAL, open_journal
 from hydroelastic.scenes.sweep.result import Sweep, sweep
 
@@ -59,6 +62,48 @@ def test_points_that_share_their_liquid_are_those_of_single_solutions(centred: S
     for number in (0, -1):
         row = centred.dataset["omega"].values[number]
         assert row == pytest.approx(lowest(tanks, 3.0, RIGIDITIES[number]), rel=2 * TOLERANCE)
+
+
+def two_beams(tanks: Tanks) -> TankScene:
+    """Beams that are no mirror images of each other."""
+    beams = tanks.beam(start=0.8, length=3.2), tanks.beam(start=5.5, length=2.5, flexural_rigidity=2e3)
+    return tanks.scene(*beams, modes=4, tolerance=TOLERANCE)
+
+
+def shipped(name: str, **changes: Any) -> Callable[[Tanks], TankScene]:
+    """A shipped scene."""
+    asked = {"accuracy.modes": 3, "accuracy.tolerance": TOLERANCE} | changes
+    return lambda _tanks: closed_tank(read_scene(name, asked), "")
+
+
+@pytest.mark.parametrize(
+    ("made", "key", "values", "shared"),
+    [
+        (two_beams, "body.2.flexural_rigidity", (5e2, 2e3, 8e3, 3e4), True),
+        pytest.param(two_beams, "body.1.mass_per_length", (10.0, 30.0, 90.0, 270.0), True, marks=pytest.mark.slow),
+        (shipped("interface_beam"), RIGIDITY, (1e3, 3e3, 9e3, 2.7e4), True),
+        # Without a surface that moves by itself.
+        (shipped("aquarium", **{"tank.top": "rigid"}), RIGIDITY, RIGIDITIES, True),
+        # A heavier float lies deeper: its liquid is another one.
+        pytest.param(
+            shipped("float_in_two_liquids"), "body.1.mass", (62.0, 64.0, 66.0, 68.0), False, marks=pytest.mark.slow
+        ),
+    ],
+)
+def test_points_of_each_kind_of_tank_are_those_of_single_solutions(
+    tanks: Tanks, made: Callable[[Tanks], TankScene], key: str, values: tuple[float, ...], shared: bool
+) -> None:
+    scene = made(tanks)
+    source = scene_source(scene)
+    assert bool(families([source.scene((), {key: value}) for value in values]).known) is shared
+    found = sweep(scene, {key: values}, follow=False)
+    assert found.status == "ok"
+    for number in (1, 3):
+        # A point alone shares its liquid with no other.
+        alone = sweep(scene, {key: values[number : number + 1]}, follow=False)
+        # Within the errors of both; what is not shared is the same computation.
+        within = 2 * TOLERANCE if shared else 1e-13
+        assert found.dataset["omega"].values[number] == pytest.approx(alone.dataset["omega"].values[0], rel=within)
 
 
 @pytest.mark.parametrize(
@@ -151,6 +196,12 @@ def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:
     assert found.plot("response_largest_angle").width > 500
 
 
+def test_estimates_are_made_where_asked_for(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(), modes=3, tolerance=1e-3)
+    made = [sweep(scene, {RIGIDITY: [5e3]}, estimates=asked, follow=False) for asked in (False, True)]
+    assert ["estimate_omega" in one.dataset for one in made] == [False, True]
+
+
 def test_modes_that_are_not_resolved_are_told_like_a_missed_tolerance() -> None:
     solved = sweep("swell", {"roll.damping_ratio": [0.2, 0.4]}).solved
     assert (solved.status, solved.reasons) == ("ok", [])
@@ -194,14 +245,22 @@ def test_a_point_that_fails_is_a_row_with_its_reason(folder: Path) -> None:
     assert summary["points"] == {"ok": 2, "unconverged": 0, "failed": 1}
 
 
-def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    arguments = ("swell", "--vary", "roll.damping_ratio=0.2:0.6:3", "--out", str(folder), "--quiet")
+@pytest.mark.parametrize(
+    ("scene", "vary"),
+    # Points of the second one share their liquid, of which the others must have left nothing.
+    [("swell", "roll.damping_ratio=0.2:0.6:3"), ("scene.toml", "body.1.flexural_rigidity=500:1100:4")],
+)
+def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, scene: str, vary: str
+) -> None:
+    arguments = (scene, "--vary", vary, "--no-follow", "--out", str(folder), "--quiet")
     assert invoke(*arguments).exit_code == 0
     files = ("dataset.nc", "sweep.csv", "sweep.png", "summary.json", "summary.md")
     whole = {name: (folder / name).read_bytes() for name in files}
     journal = folder / JOURNAL
     # The process was killed while it wrote the last point.
     journal.write_bytes(journal.read_bytes()[:-200])
+    LAST.clear()
     solved = []
     alone = workers.solve_point
     monkeypatch.setattr(workers, "solve_point", lambda *given: solved.append(given) or alone(*given))

@@ -71,7 +71,7 @@ class Amplitudes(Protocol):
 
 def participations(modes: Amplitudes, bodies: tuple[Body, ...], body: int) -> np.ndarray:
     """Return pₙ of a beam's first dry mode, shape (modes,)."""
-    first = [dof.is_first_elastic for dof in bodies[body].dofs].index(True)
+    first = next(place for place, dof in enumerate(bodies[body].dofs) if dof.is_first_elastic)
     position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
     # Modes have unit generalized mass, so φᵀKφ = λ.
     parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues

@@ -7,7 +7,7 @@ on the ratios of its flexural rigidities alone.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from mpi4py import MPI
@@ -74,10 +74,13 @@ class SharedLiquids(Liquids):
     Attributes:
         of_field: elements and dry modes of the first attempt, for all of them.
         of_limit: as fine as the first attempt must be for the infinite-frequency limit of all of them.
+        growing: whether what is known of the liquid grows with each tank that is solved; then results depend on those
+            before.
     """
 
     of_field: Resolution
     of_limit: Resolution
+    growing: bool = True
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -114,18 +117,19 @@ class SharedLiquids(Liquids):
         key = (id(mesh), degree, shapes, half, infinite_frequency)
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
-            self._pencils[key] = {parity: _shared(pencil) for parity, pencil in made.items()}
+            self._pencils[key] = {parity: _shared(pencil, lambda: self.growing) for parity, pencil in made.items()}
         return {
             parity: replace(pencil, bodies=_bodies(tank, shapes, parity))
             for parity, pencil in self._pencils[key].items()
         }
 
 
-def _shared(pencil: CoupledPencil) -> CoupledPencil:
+def _shared(pencil: CoupledPencil, grows: Callable[[], bool]) -> CoupledPencil:
     answer = pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0])))
-    if answer is None:
-        return pencil
-    errors = SharedErrors(pencil.liquid, answer).cells if is_straight(pencil.liquid.tank.mesh) else None
+    if answer is None or pencil.size == pencil.body_size:
+        # In the infinite-frequency limit no surface moves by itself: there are no gravity modes.
+        return replace(pencil, answer=answer)
+    errors = SharedErrors(pencil.liquid, answer, grows).cells if is_straight(pencil.liquid.tank.mesh) else None
     of_surfaces = pencil.volumes[:, pencil.body_size :] @ answer.root
     shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, cell_errors=errors)
     return replace(pencil, answer=shared)

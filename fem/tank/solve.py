@@ -332,4 +332,5 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
     liquids.of_field = finest([one.resolution for one in solved])
+    liquids.growing = False
     return liquids

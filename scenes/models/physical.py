@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from hydroelastic.physics import attachments as physics
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from hydroelastic.physics.floats import RigidFloat
 
 
+# Points of a sweep are asked for theirs several times, one after the other.
+@lru_cache(maxsize=256)
 def physical_tank(scene: TankParts) -> Tank:
     """Return the tank, or the open water, of a scene; SI units, per metre of width or of revolution.
 

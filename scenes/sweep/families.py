@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import sha256
+from math import ceil
 from typing import TYPE_CHECKING
 
 from hydroelastic.scenes.errors import SceneError
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 
 # With fewer points the answer of the liquid to all loads would cost more than it saves.
 _FEWEST = 4
+# One more scene of the sample for so many points: of few points further directions cost less than further solutions.
+_FOR_EACH = 16
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,12 +28,13 @@ class Family:
 
     Attributes:
         name: a hash, which also tells families of different sweeps apart.
-        ends: the first and the last scene of the grid: all take a resolution that suffices for both, so that the result
-            of a point does not depend on which points were solved before.
+        sample: some scenes of the grid, with the first and the last one: all take a resolution that suffices for them,
+            and the directions of their motions, so that the result of a point does not depend on which points were
+            solved before.
     """
 
     name: str
-    ends: tuple[TankScene, TankScene]
+    sample: tuple[TankScene, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,18 +55,22 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
         if isinstance(scene, TankScene):
             members.setdefault(_liquid_of(scene), []).append(scene)
     members.pop("", None)
+    samples = {liquid: _sample(found) for liquid, found in members.items() if len(found) >= _FEWEST}
     return Families(
         known={
-            liquid: Family(
-                name=_hash(liquid, *(one.model_dump_json() for one in (found[0], found[-1]))),
-                ends=(found[0], found[-1]),
-            )
-            for liquid, found in members.items()
-            if len(found) >= _FEWEST
+            liquid: Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
+            for liquid, sample in samples.items()
         }
     )
 
 
+def _sample(scenes: list[TankScene]) -> tuple[TankScene, ...]:
+    last = len(scenes) - 1
+    count = 1 + ceil(len(scenes) / _FOR_EACH)
+    return tuple(scenes[round(number * last / (count - 1))] for number in range(count))
+
+
+@lru_cache(maxsize=256)
 def _liquid_of(scene: Scene | SceneError) -> str:
     """What the liquid of a scene depends on, as a text; "" where it is not shared."""
     if not isinstance(scene, TankScene) or scene.is_open or scene.mesh is not None or not scene.body:
@@ -87,9 +96,9 @@ def liquids_of(family: Family) -> SharedLiquids:
         from hydroelastic.fem.tank.solve import shared_liquids
         from hydroelastic.scenes.models.physical import physical_tank
 
-        asked = family.ends[0].accuracy
+        asked = family.sample[0].accuracy
         LAST.clear()
         LAST[family.name] = shared_liquids(
-            [physical_tank(scene) for scene in family.ends], tolerance=asked.tolerance, modes=asked.modes
+            [physical_tank(scene) for scene in family.sample], tolerance=asked.tolerance, modes=asked.modes
         )
     return LAST[family.name]

@@ -13,6 +13,8 @@ from hydroelastic.output.pictures.options import PictureOptions
 
 # Points across a picture, and shades of its colours.
 _POINTS, _SHADES = 401, 20
+# Numbers beside a scale of colours.
+_TICKS = 7
 
 
 def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: PictureOptions) -> None:
@@ -25,6 +27,7 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
         options: how to draw.
     """
     from matplotlib.patches import Annulus, Circle
+    from matplotlib.ticker import MaxNLocator
 
     edge = float(waves.radii[-1])
     x = np.linspace(-edge, edge, _POINTS)
@@ -48,4 +51,4 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
             axes.set_aspect("equal")
             axes.set_xlabel("x, m, along the waves")
             axes.set_ylabel("y, m")
-            figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+            figure.colorbar(image, ax=axes, label=label, shrink=0.8, ticks=MaxNLocator(_TICKS))

@@ -89,8 +89,7 @@ def _resonances(tank: Tank, plate: RoundPlate, table: ResonanceTable) -> Iterato
         found = [
             omega.real
             for omega, label in zip(table.omega, table.labels, strict=True)
-            if (label.is_first_elastic and f"of order {label.split()[1][0]}" in one.note)
-            or label == one.motion
+            if (label.is_first_elastic and f"of order {label.split()[1][0]}" in one.note) or label == one.motion
         ]
         if found:
             what = "the first elastic tone" if one.motion == "elastic" else one.motion

@@ -82,10 +82,10 @@ def strip_force(wet: Iterable[Arc], wavenumber: float, depth: float, weight: flo
     total = 0.0
     for arc in wet:
         x, z, _, dz = arc_quadrature(arc)
+        wave = np.exp(wavenumber * z) + np.exp(-wavenumber * (z + 2.0 * depth))
         # ∫A Z dz = π∮r² Z dz by Green's theorem, of both halves of the section.
-        decay = (np.exp(wavenumber * z) + np.exp(-wavenumber * (z + 2.0 * depth))) / (1.0 + exp(-2.0 * wavenumber * depth))
-        total += 0.5 * pi * float((x * np.abs(x) * decay) @ dz)
-    return 2.0 * weight * wavenumber * total
+        total += 0.5 * pi * float((x * np.abs(x) * wave) @ dz)
+    return 2.0 * weight * wavenumber * total / (1.0 + exp(-2.0 * wavenumber * depth))
 
 
 def following_heave(wavenumber: float, inner: float, outer: float) -> float:

@@ -18,11 +18,15 @@ from hydroelastic.physics.tank import ROUND_OFF, Tank
 def lowest_between_slopes(tank: Tank) -> tuple[ExactMode, ...]:
     """Return the lowest mode of a cone or a V-shaped canal of 45 degrees with nothing on its water; none of others."""
     depth, gravity = tank.layers[0].depth, tank.gravity
-    sides = [(0.0, -depth), (depth, 0.0)] if tank.geometry.is_revolved else [(0.0, 0.0), (depth, -depth), (2 * depth, 0.0)]
+    sides = (
+        [(0.0, -depth), (depth, 0.0)] if tank.geometry.is_revolved else [(0.0, 0.0), (depth, -depth), (2 * depth, 0.0)]
+    )
     if tank.bodies or len(tank.layers) > 1 or tank.top != "free" or not _is_bed(tank, sides):
         return ()
     swaying = ExactMode(
-        formula="ω² = g/H between walls of 45 degrees", order=int(tank.geometry.is_revolved), omega=sqrt(gravity / depth)
+        formula="ω² = g/H between walls of 45 degrees",
+        order=int(tank.geometry.is_revolved),
+        omega=sqrt(gravity / depth),
     )
     if tank.geometry.is_revolved:
         return (swaying,)

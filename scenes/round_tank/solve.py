@@ -26,9 +26,7 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
 
     asked, physical, watch = scene.accuracy, physical_tank(scene), Stopwatch()
     try:
-        solution = round_solution(
-            physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report
-        )
+        solution = round_solution(physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report)
     except MeshError as error:
         problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
         raise SceneError(problem) from error
@@ -37,6 +35,4 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
     with watch.stage("estimates"):
         exact = lowest_between_slopes(physical)
         estimates = tuple(round_plate_estimates(physical, solution.physical))
-    return SolvedLevelTank(
-        scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds
-    )
+    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)

@@ -61,4 +61,8 @@ def omitted_deflections(modes: PlateModes, response: OpenResponse, dual: np.ndar
 def _pressures(modes: PlateModes, response: OpenResponse, motions: np.ndarray) -> np.ndarray:
     """∫ρΨ on all modes of all waves, shape (incident, modes)."""
     scattered = response.model.pencil.products(response.scattered_by(motions), modes.loads)
-    return modes.given(response.squared.real, response.incidence.planes)[response.incident] + scattered
+    squared, surface = response.squared.real, modes.surface
+    if squared not in modes.given:
+        waves = np.array([wave.field(surface.points, surface.layers)[0] for wave in response.incidence.planes])
+        modes.given[squared] = surface.integrals(waves, surface.shapes)
+    return modes.given[squared][response.incident] + scattered

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from hydroelastic.fem.bodies.round_plate import RoundPlateModel, RoundShapes
@@ -13,9 +10,6 @@ from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import OpenPencil, weighed_loads
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.physics.attachments import Attachment
-
-if TYPE_CHECKING:
-    from hydroelastic.fem.open_water.incident_waves import Wave
 
 # With so many further modes the moment is accurate to 1e-8 and the shear force to 4e-6 of the largest, of discs and
 # rings with loads like s ln s at their edges.
@@ -37,6 +31,9 @@ class PlateModes:
         shapes: the dry modes.
         count: number of modes of the model, the first ones of these.
         own: their places among the body unknowns.
+        surface: for integrals of given waves over the modes.
+        given: these of incident waves by λ, shape (waves, modes): a frequency is evaluated for loads, their errors and
+            those of waves.
         loads: ∫ρφₖ q of each mode on the potential, own entries of free unknowns, shape (modes, free unknowns).
     """
 
@@ -57,22 +54,13 @@ class PlateModes:
         self.shapes = RoundShapes(plate.plate, count + _FURTHER * bool(count), spare=0)
         self._body = plate.in_shapes(self.shapes)
         self.loads = weighed_loads(pencil.liquid, self._body)[:, pencil.free].astype(complex)
-        self._surface = WettedSurface(pencil.liquid, self._body, wavenumber)
+        self.surface = WettedSurface(pencil.liquid, self._body, wavenumber)
         bodies = (*pencil.bodies[:index], self._body, *pencil.bodies[index + 1 :])
         self._outside = outside_of(basin, bodies, attachments)
         self._modes = slice(first, first + self._body.size)
         # The unknowns of the model among these.
         self._known = np.delete(np.arange(len(self._outside.stiffness)), np.arange(first + count, self._modes.stop))
-        # A frequency is evaluated for loads, their errors and those of waves.
-        self._given: dict[float, np.ndarray] = {}
-
-    def given(self, squared: float, waves: Sequence[Wave]) -> np.ndarray:
-        """Return ∫ρφ of the incident waves at λ on all modes, shape (waves, modes) (collective)."""
-        if squared not in self._given:
-            surface = self._surface
-            values = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
-            self._given[squared] = surface.integrals(values, surface.shapes)
-        return self._given[squared]
+        self.given: dict[float, np.ndarray] = {}
 
     def amplitudes(self, squared: float, pressures: np.ndarray, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
         """Return the amplitudes of all modes in waves at λ, shape (waves, modes).

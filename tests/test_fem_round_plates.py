@@ -121,7 +121,6 @@ def test_a_rigid_disc_has_the_added_mass_of_the_closed_forms() -> None:
     np.testing.assert_allclose(np.diag(table.inertia), 10.0 * math.pi * np.array([4.0, 4.0]), rtol=1e-12)
 
 
-@pytest.mark.mpi
 def test_a_rigid_disc_moves_in_waves_as_its_forces_say() -> None:
     """[C − ω²(M + a) − iωb] ξ = X; orders above 1 scatter waves from a plate that has no shape of theirs."""
     omega, body = 2.0, {"radius": 1.0, "rigid": True, "mass_per_area": 10.0}

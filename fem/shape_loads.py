@@ -40,7 +40,7 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
         for group in facet_groups(liquid, body.surface)
         for corner, own in _by_corner(body, group)
     ]
-    if pieces:
+    if pieces and body.size:
         # Each shape is evaluated once for all facets.
         points, normals = (
             np.concatenate(part, axis=1) for part in zip(*((one.points, one.normals) for _, one in pieces), strict=True)

@@ -8,7 +8,13 @@ import pytest
 from float_scenes import BARGE
 from mpi4py import MPI
 
+from hydroelastic.fem.open_water.drift_of_orders import wave_errors
+from hydroelastic.fem.open_water.field_model import Band
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models import SeaScene
+from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.solve import solve_open
 
 SHIP = {
@@ -122,3 +128,22 @@ def test_frequencies_of_a_spectrum_reach_as_far_as_the_drift_has_weight() -> Non
     assert found.omega[-1] > 1.1 * 8.0 * np.pi / 8.0
     assert abs(found.mean_drift_force - further.mean_drift_force) < found.mean_drift_error
     assert found.mean_drift_error < 1e-4 * 1000.0 * 9.81 * 0.25
+
+
+def test_waves_of_high_orders_that_are_lost_in_rounding_have_no_errors() -> None:
+    """Of order 24 long waves scatter 1e-81 to 1e-25, where 1 + 2a is rounded to 1e-16: errors are powers of ω.
+
+    Relative to |a|² as it is rounded the error at the third frequency was 1.5e4.
+    """
+    disc = {"kind": "plate", "outline": "disc", "radius": 50.0, "youngs_modulus": 6e9, "thickness": 1.0}
+    scene = SeaScene(
+        liquid=[{"density": 1025.0, "depth": inf}], body=[disc | {"density": 922.5}], accuracy={"tolerance": 1e-2}
+    )
+    problem = open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()).of_order(24)
+    omegas = np.linspace(0.3, 1.5, 7)
+    band = Band(lowest=omegas[0], highest=omegas[-1])
+    solver = OpenSolver(open_model(problem, band, first_resolution(problem.tank, 1e-2, band)), problem.watch)
+    responses = [solver.response(omega, [0]) for omega in omegas]
+    errors = wave_errors(responses, omegas, [0, 3, 6], np.zeros(7))[:, 0]
+    assert np.all(np.diff(errors) > 0.0)
+    assert errors[-1] < 1e-15

@@ -121,6 +121,22 @@ def test_a_rigid_disc_has_the_added_mass_of_the_closed_forms() -> None:
     np.testing.assert_allclose(np.diag(table.inertia), 10.0 * math.pi * np.array([4.0, 4.0]), rtol=1e-12)
 
 
+def test_a_rigid_disc_moves_in_waves_as_its_forces_say() -> None:
+    """[C − ω²(M + a) − iωb] ξ = X; orders above 1 scatter waves from a plate that has no shape of theirs."""
+    omega, body = 2.0, {"radius": 1.0, "rigid": True, "mass_per_area": 10.0}
+    requests = RadiationRequest(omega=(omega,)), ResponseRequest(omega=(omega,))
+    solution = solved(body, math.inf, 1e-4, *requests)
+    (forces,), (response,) = solution.radiation, solution.response
+    dynamic = forces.stiffness - omega**2 * (forces.inertia + forces.added_mass[0])
+    dynamic = dynamic - 1j * omega * forces.radiation_damping[0]
+    known = np.linalg.solve(dynamic, forces.excitation_force[0, 0, 0])
+    np.testing.assert_allclose(response.amplitudes[0, 0], known, rtol=1e-3)
+    assert response.partial_waves is not None
+    assert response.partial_waves.shape[-1] > 2
+    np.testing.assert_allclose(np.abs(1.0 + 2.0 * response.partial_waves), 1.0, atol=1e-4)
+    np.testing.assert_array_equal(response.plates[0].bending_moment, 0.0)
+
+
 @pytest.mark.parametrize(("order", "zero"), [(0, 3.83170597), (1, 1.84118378), (3, 4.20118894)])
 def test_a_dry_membrane_vibrates_at_the_zeros_of_bessel_functions(order: int, zero: float) -> None:
     """T Δw = −ω²m w with ∂w/∂r = 0 at the edge: ω a √(m/T) = j′."""

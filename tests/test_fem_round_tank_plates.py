@@ -15,6 +15,8 @@ from hydroelastic.fem.level_bed.solve import solve_level_tank
 from hydroelastic.fem.plan.patches import level_patches
 from hydroelastic.fem.tank.orders import solve_by_order
 from hydroelastic.fem.tank.round_solution import round_solution
+from hydroelastic.modal.plate.estimates import plate_estimates
+from hydroelastic.modal.plate.round_estimates import round_plate_estimates
 from hydroelastic.physics.geometry import Geometry
 from hydroelastic.physics.level_tank import Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate
@@ -23,6 +25,7 @@ from hydroelastic.physics.tank import Tank, tank
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.check import check_round_tank
+from hydroelastic.scenes.round_tank.run import compare_round_tank
 from hydroelastic.scenes.round_tank.solve import solve_round_scene
 
 PLATES = {
@@ -160,6 +163,38 @@ def test_plates_of_a_scene_over_a_dished_bed(tmp_path: Path) -> None:
             # Between neighbouring circles a plate bends by little: the outermost ones are the plate's, not the water's.
             steps = np.abs(np.diff(rings[:, 0]))
             assert steps[-1] < 2.0 * np.median(steps)
+
+
+def test_estimates_of_plates_take_a_shaped_bed_as_level() -> None:
+    """A bed of flat rings is the level one; a sphere's mean depth below a disc of radius a is a closed form."""
+    plate = RoundPlate(radius=2.0, flexural_rigidity=5000.0, mass_per_area=50.0)
+    physical = round_tank(5.0, 3.0, plate)
+    disc = Plate(outline=Disc(radius=2.0), flexural_rigidity=5000.0, mass_per_area=50.0)
+    level = LevelTank(plan=Cylinder(radius=5.0), depth=3.0, density=1000.0, gravity=9.81, plates=(disc,))
+    known = plate_estimates(level)
+    assert tuple(round_plate_estimates(physical, level)) == known
+    flat = round_plate_estimates(replace(physical, bed=((0.0, -3.0), (4.0, -3.0), (5.0, -3.0))), level)
+    for one, other in zip(flat, known, strict=True):
+        assert one.omega == pytest.approx(other.omega, rel=1e-12)
+        assert one.note == f"{other.note}; the bed as if level at 3 m, its mean depth below the plate"
+    bowl = replace(physical, length=5.0, bed="sphere")
+    radius = (25.0 + 9.0) / 6.0
+    mean = 2.0 * (radius**3 - (radius**2 - 4.0) ** 1.5) / (3.0 * 4.0) - radius + 3.0
+    deep = plate_estimates(replace(level, depth=mean))
+    for one, other in zip(round_plate_estimates(bowl, level), deep, strict=True):
+        # A thousand circles leave 1e-7 of the mean depth.
+        assert one.omega == pytest.approx(other.omega, rel=1e-6)
+    assert not tuple(round_plate_estimates(round_tank(5.0, 3.0, replace(plate, tension=10.0)), level))
+
+
+def test_plates_over_a_dished_bed_are_beside_their_estimates(tmp_path: Path) -> None:
+    """Under a lid the water between the plates cannot rise: a fifth too low and an eighth too high."""
+    (tmp_path / "dish.toml").write_text(DISHED, encoding="utf-8")
+    scene = read_scene(tmp_path / "dish.toml")
+    estimates = compare_round_tank(scene).summary["estimates"]  # type: ignore[arg-type]
+    found = {name: one["difference"] for name, one in estimates.items() if name.startswith("rayleigh")}
+    # Measured.
+    assert found == {"rayleigh_lid": pytest.approx(-0.154, abs=2e-3), "rayleigh_lid_2": pytest.approx(0.129, abs=2e-3)}
 
 
 @pytest.mark.parametrize(

@@ -72,6 +72,15 @@ def test_every_value_of_the_references_keeps_the_tolerance(name: str) -> None:
         assert not row.is_stated_too_small
 
 
+@SLOW
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case["group"] == "resonance"])
+def test_resonances_keep_the_tightest_tolerance(name: str) -> None:
+    """Over a bed 2e-8 was left, whatever the tolerance, by evanescent waves that oscillate in the absorbing layer."""
+    (row,) = compared(name, 1e-8)
+    assert row.error < row.estimate + row.unknown
+    assert row.estimate < 1e-8
+
+
 @pytest.mark.parametrize("name", ["hemisphere Ka=0.01", "c1 Ka=0.5"])
 def test_estimates_at_a_loose_tolerance_hold(name: str) -> None:
     """Of long waves, that do not oscillate in the absorbing layer near the body, and of motions.

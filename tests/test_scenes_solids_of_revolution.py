@@ -77,17 +77,19 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     assert response["capture_width"] == [[0.0]]
     headings = {heading for section in outcome.sections for heading in section.headings}
     assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
-    # ρgπ of long waves, MacCamy and Fuchs' force over the draught: at Ka = 0.1 a fifth and a quarter too large, so that
+    # ρgπ of long waves, the displaced mass, MacCamy and Fuchs' force over the draught: at Ka = 0.1 too large, so that
     # their squares, the dampings, are 1.42 and 1.59 times those of the field.
     rows = summary["estimates"]["round_body"]["rows"]
     assert [row["quantity"].split(",")[0] for row in rows] == [
         "|X| of heave in long waves",
         "b of heave by Haskind from long waves",
+        "a of surge by strips",
         "|X| of surge by MacCamy and Fuchs",
         "b of surge by Haskind from that",
     ]
     assert rows[0]["theory"] == pytest.approx(9810.0 * pi)
-    np.testing.assert_allclose([row["difference"] for row in rows], [0.193, 0.424, 0.262, 0.592], atol=2e-3)
+    assert rows[2]["theory"] == pytest.approx(1000.0 * pi)
+    np.testing.assert_allclose([row["difference"] for row in rows], [0.193, 0.424, 0.631, 0.262, 0.592], atol=2e-3)
     at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
     # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
     assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]
@@ -151,7 +153,10 @@ def test_a_tank_of_one_section_over_a_width_is_solved_by_order() -> None:
     assert not is_canal({"tank": {"length": 4.0, "width": 7.0}})
     assert not is_canal({"tank": {"length": 4.0, "width": 7.0}, "body": [{"kind": "float", "shape": "box"}]})
     scene = CanalScene.model_validate(document | {"accuracy": {"modes": 3, "tolerance": 1e-4}})
-    modes = run_round_tank(scene).summary["modes"]
+    summary = run_round_tank(scene).summary
+    modes, (exact,) = summary["modes"], summary["exact"]
+    assert exact["order"] == 1
+    assert abs(exact["difference"]) < 1e-6
     k = pi / 7.0 / 2.0**0.5
     assert [mode["order"] for mode in modes] == [1, 0, 2]
     assert {mode["multiplicity"] for mode in modes} == {1}

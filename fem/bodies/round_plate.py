@@ -124,7 +124,9 @@ class RoundShapes:
             rigidity=plate.flexural_rigidity if plate.bends else 1.0,
             tension=plate.tension if plate.bends else 0.0,
         )
-        self._modes = dry_modes(line, self.count + (max(FEW_MODES, self.count) if spare is None else spare))
+        # A rigid plate has no shape of order 2 or more.
+        polynomials = max(self.count + (max(FEW_MODES, self.count) if spare is None else spare), 1)
+        self._modes = dry_modes(line, polynomials)
         edge = self._modes.values(np.array([plate.radius]))[0, : self.count]
         self._factors = np.where([dof.is_rotation for dof in self.dofs], plate.radius, 1.0) / edge
         self.squares: NDArray[np.float64] = self._modes.squares[: self.count] * self._factors**2

@@ -35,7 +35,9 @@ def bent_without_drag(modes: PlateModes, response: OpenResponse) -> np.ndarray:
 def omitted_effect(modes: PlateModes, response: OpenResponse) -> np.ndarray:
     """Return the effect of the further modes on the amplitude of the outgoing wave over the incident one, shape
     (incident,) (collective)."""
-    amplitudes, pressures = bent_without_drag(modes, response), _pressures(modes, response, response.motions)
+    motions = response.motions
+    pressures, drag = _pressures(modes, response, motions), np.zeros((len(motions), len(response.model.outside.drag)))
+    amplitudes = modes.amplitudes(response.squared.real, pressures, motions, drag)
     further = (amplitudes * pressures)[:, modes.count :].sum(axis=1)
     return np.asarray(np.abs(further) / response.incidence.powers[response.incident])
 
@@ -58,7 +60,9 @@ def omitted_deflections(modes: PlateModes, response: OpenResponse, dual: np.ndar
 
 def _pressures(modes: PlateModes, response: OpenResponse, motions: np.ndarray) -> np.ndarray:
     """∫ρΨ on all modes of all waves, shape (incident, modes)."""
-    surface, waves = modes.surface, [response.incidence.planes[place] for place in response.incident]
-    given = np.array([wave.field(surface.points, surface.layers)[0] for wave in waves])
     scattered = response.model.pencil.products(response.scattered_by(motions), modes.loads)
-    return surface.integrals(given, surface.shapes) + scattered
+    squared, surface = response.squared.real, modes.surface
+    if squared not in modes.given:
+        waves = np.array([wave.field(surface.points, surface.layers)[0] for wave in response.incidence.planes])
+        modes.given[squared] = surface.integrals(waves, surface.shapes)
+    return modes.given[squared][response.incident] + scattered

@@ -23,6 +23,8 @@ from hydroelastic.physics.tank import Tank
 
 # Nothing moves below: a quotient by it is finite.
 _LEAST = 1e-200
+# The square of a wave that is lost in rounding, and is no measure of errors: of high orders in long waves.
+_ROUNDED = float(np.finfo(float).eps) ** 2
 
 
 def wave_errors(
@@ -41,8 +43,8 @@ def wave_errors(
     """
     if len(responses[0].incidence.planes) > 1:
         return np.zeros((len(responses), 3))
-    sizes = np.abs([one.partial_waves()[0, 0] for one in responses]) ** 2
-    missed = [_missed_wave(responses[place]) / max(sizes[place], _LEAST) for place in places]
+    sizes = np.maximum(np.abs([one.partial_waves()[0, 0] for one in responses]) ** 2, _ROUNDED)
+    missed = [_missed_wave(responses[place]) / sizes[place] for place in places]
     meshed = between_places(omegas, places, np.array(missed)) * sizes[:, None]
     return np.column_stack([meshed, reduced + unmeshed_error(responses[0].model)])
 

@@ -25,7 +25,7 @@ from math import pi, sqrt
 from typing import Literal, TypeAlias
 
 import numpy as np
-from scipy.special import jv, jvp
+from scipy.special import jv
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
@@ -98,8 +98,12 @@ class Circular:
         """See `Plane.field`."""
         value, slope = self.wave.profile(points[..., 1], above=layers > 0)
         k, order = self.wave.wavenumber, self.geometry.order
-        radial = jv(order, k * points[..., 0])
-        along = k * jvp(order, k * points[..., 0])
+        x = k * points[..., 0]
+        # J_n and its derivative from both neighbours.
+        after = jv(order + 1, x)
+        before = -after if order == 0 else jv(order - 1, x)
+        radial = jv(0, x) if order == 0 else x * (before + after) / (2.0 * order)
+        along = 0.5 * k * (before - after)
         return (radial * value).astype(complex), np.stack([along * value, radial * slope], axis=-1).astype(complex)
 
     @property

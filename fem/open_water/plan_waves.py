@@ -22,9 +22,34 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.results import ResponseTable
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.surface_line import along_the_surface
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.tank import Tank
 
-# Distance from the bodies to the edge of a picture in radians of the wave.
-_RADIANS = 13.0
+# Distance from the bodies to the edge of a picture, in radians of the wave, and at most in radii of the bodies: beside
+# long waves they would not be seen.
+_RADIANS, _RADII = 13.0, 12.0
+# Points along each arc of a body's outline.
+_ALONG_ARC = 25
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingSolid:
+    """A rigid body about the axis that moves in the waves.
+
+    Attributes:
+        outline: r and z of its section from its contour, r ≥ 0, closed by the axis unless it is a ring, m, shape
+            (points, 2).
+        surge: complex, m per metre of elevation.
+        heave: likewise.
+        pitch: rad per metre of elevation, about `centre`.
+        centre: height of the centre of mass, m.
+    """
+
+    outline: np.ndarray
+    surge: complex = 0.0
+    heave: complex = 0.0
+    pitch: complex = 0.0
+    centre: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +66,7 @@ class PlanWaves:
         orders: the scattered and radiated waves of each azimuthal order, complex, shape (orders, points).
         waterplanes: inner and outer radius of each rigid body in the water, m.
         plates: radii of each elastic plate, m, shape (points,), and Wₙ there, complex, shape (orders, points).
+        solids: the rigid bodies.
     """
 
     name: str
@@ -52,6 +78,7 @@ class PlanWaves:
     orders: np.ndarray
     waterplanes: tuple[tuple[float, float], ...]
     plates: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
+    solids: tuple[MovingSolid, ...] = ()
 
     def elevation(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the complex elevation of water and plates at places, NaN in rigid bodies and beyond the largest
@@ -106,6 +133,7 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
                 for plate in table.round_plates
                 if problem.tank.bodies[plate.body].flexural_sections
             ),
+            solids=tuple(_moving(problem.tank, table, row)),
         )
 
 
@@ -118,15 +146,17 @@ def _of_largest_motion(table: ResponseTable) -> float:
 
 def _scattered(problem: OpenWaterProblem, band: Band, orders: int) -> tuple[np.ndarray, np.ndarray]:
     """Radii, m, to two wavelengths beyond the bodies, and εₙ iⁿ λψₙ/η̂ of the orders there (collective)."""
+    wavenumber = band.wavenumbers(problem.tank)[1]
     reach = max(right for _, right in (body.waterplane for body in problem.tank.bodies))
-    reach += _RADIANS / band.wavenumbers(problem.tank)[1]
+    drawn = min(_RADIANS, _RADII * reach * wavenumber)
+    reach += drawn / wavenumber
     rough = problem.rough()
     rough = replace(rough, tank=replace(rough.tank, start=-reach, length=2.0 * reach))
     parts = []
     for order in range(orders):
         own = rough.of_order(order)
-        resolution = first_resolution(own.tank, own.tolerance, band, drawn=_RADIANS)
-        model = open_model(own, band, resolution, drawn=_RADIANS)
+        resolution = first_resolution(own.tank, own.tolerance, band, drawn=drawn)
+        model = open_model(own, band, resolution, drawn=drawn)
         found = OpenSolver(model, problem.watch).response(band.lowest, [0])
         wave = found.incidence.planes[0]
         assert isinstance(wave, Circular)
@@ -137,3 +167,29 @@ def _scattered(problem: OpenWaterProblem, band: Band, orders: int) -> tuple[np.n
         parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * scattered))
     radii = parts[0][0]
     return radii, np.array([np.interp(radii, r, values) for r, values in parts])
+
+
+def _moving(tank: Tank, table: ResponseTable, row: int) -> Iterator[MovingSolid]:
+    """The rigid bodies with their motions at a frequency."""
+    for index, body in enumerate(tank.bodies):
+        if not isinstance(body, RigidFloat):
+            continue
+        points = np.vstack([arc.point(np.linspace(0.0, 1.0, _ALONG_ARC)) for arc in body.hull.contour.arcs])
+        own = {
+            str(dof.motion): complex(amplitude)
+            for dof, amplitude in zip(table.dofs, table.amplitudes[row, 0], strict=True)
+            if (dof.body or 1) - 1 == index
+        }
+        yield MovingSolid(outline=_right_half(points), centre=body.hydrostatics.centre_of_mass[1], **own)
+
+
+def _right_half(points: np.ndarray) -> np.ndarray:
+    """The part of a closed section at r ≥ 0, from the axis around to it; all of a ring's."""
+    right = points[:, 0] > 0.0
+    if right.all():
+        return np.vstack([points, points[:1]])
+    # Counterclockwise it enters the right half at the bottom.
+    first = int(np.flatnonzero(right & ~np.roll(right, 1))[0])
+    turned, count = np.roll(points, -first, axis=0), int(right.sum())
+    half = turned[:count]
+    return np.vstack([[[0.0, half[0, 1]]], half, [[0.0, half[-1, 1]]]])

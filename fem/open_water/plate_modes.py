@@ -32,6 +32,8 @@ class PlateModes:
         count: number of modes of the model, the first ones of these.
         own: their places among the body unknowns.
         surface: for integrals of given waves over the modes.
+        given: these of incident waves by λ, shape (waves, modes): a frequency is evaluated for loads, their errors and
+            those of waves.
         loads: ∫ρφₖ q of each mode on the potential, own entries of free unknowns, shape (modes, free unknowns).
     """
 
@@ -58,6 +60,7 @@ class PlateModes:
         self._modes = slice(first, first + self._body.size)
         # The unknowns of the model among these.
         self._known = np.delete(np.arange(len(self._outside.stiffness)), np.arange(first + count, self._modes.stop))
+        self.given: dict[float, np.ndarray] = {}
 
     def amplitudes(self, squared: float, pressures: np.ndarray, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
         """Return the amplitudes of all modes in waves at λ, shape (waves, modes).

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import atan2, sqrt
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel
+from hydroelastic.fem.open_water.field_model import ANGLE_OVER_A_BED, LAYER_WEIGHT, Band, OpenModel
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency, scaled_stiffness
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep
 from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -34,6 +35,8 @@ ANGLE = 1.3
 """α of the complex scaling, rad: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are eigenvalues in deep water; beyond
 `MOST_DAMPING_ANYWHERE` they are found by `damped`."""
 
+# By so much α exceeds −arg k over a bed.
+_DECAYING = 0.5
 # A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
 _STILL = 1e-2
 # The same with a coarse mesh, of resonances that are counted but not found otherwise; finer ones tell.
@@ -126,7 +129,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
             with watch.stage("resonances"):
                 known = sorted([*known, *_search(coarse, _spread(region), region, _NEARLY_STILL, known)], key=abs)
     values = known[: request.count]
-    band, angle = Band(lowest=region.lowest, highest=region.highest), ANGLE
+    band, angle = Band(lowest=region.lowest, highest=region.highest), _angle(problem, values)
     if damped:
         band, angle = _around(values, region)
 
@@ -231,6 +234,18 @@ def _around(values: list[complex], region: Region) -> tuple[Band, float]:
     sizes = [abs(omega) for omega in values] or [region.lowest, region.highest]
     damping = max((-omega.imag / omega.real for omega in values), default=region.damping)
     return Band(lowest=min(sizes) / _AROUND, highest=max(sizes) * _AROUND), mirror_angle(damping)
+
+
+def _angle(problem: OpenWaterProblem, values: list[complex]) -> float:
+    """Return α, rad, of the mesh for given resonances.
+
+    Over a bed e^{−κx} oscillates the faster the larger α is: at `ANGLE` this leaves 2e-8 of ω whatever the mesh of the
+    basin. Waves of the wavenumber k decay if α is larger than −arg k, which is 2 arctan(−Im ω/Re ω) at most.
+    """
+    if is_infinitely_deep(problem.tank) or not values:
+        return ANGLE
+    turned = max(2.0 * atan2(-omega.imag, omega.real) for omega in values)
+    return min(ANGLE, max(ANGLE_OVER_A_BED, turned + _DECAYING))
 
 
 def _outgoing_search(model: OpenModel) -> ResonanceSearch:

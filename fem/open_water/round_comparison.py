@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, pi
+from math import pi
 
 import numpy as np
 
+from hydroelastic.fem.open_water.plate_comparison import plate_comparisons
 from hydroelastic.fem.open_water.results import RadiationTable
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
-from hydroelastic.fem.open_water.thin_float_theory import Comparison
-from hydroelastic.modal.floats.round_bodies import (
-    DISC_HEAVE,
-    DISC_PITCH,
-    depth_integrals,
-    haskind_damping,
-    standing_cylinder,
-)
+from hydroelastic.fem.open_water.thin_float_theory import Comparison, compared
+from hydroelastic.modal.floats.round_bodies import depth_integrals, haskind_damping, standing_cylinder, strip_force
 from hydroelastic.physics.floats import RigidFloat
-from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank
 
 # Relative difference of a solid's volume from that of an upright cylinder, by rounding.
@@ -26,7 +20,8 @@ _ALIKE = 1e-9
 
 
 def round_comparisons(tank: Tank, solution: OpenWaterSolution) -> tuple[Comparison, ...]:
-    """Compare the forces on a lone body of revolution in one liquid with closed forms and estimates.
+    """Compare the forces on a lone body of revolution in one liquid, and motions of a plate, with closed forms and
+    estimates.
 
     Args:
         tank: the sea in SI units.
@@ -34,44 +29,64 @@ def round_comparisons(tank: Tank, solution: OpenWaterSolution) -> tuple[Comparis
     """
     if not tank.geometry.is_revolved or len(tank.bodies) > 1 or len(tank.layers) > 1:
         return ()
-    return tuple(row for table in solution.radiation for row in _rows(tank, table))
+    rows = [row for table in solution.radiation for row in _rows(tank, table)]
+    if not isinstance(tank.bodies[0], RigidFloat):
+        rows += plate_comparisons(tank, solution)
+    return tuple(rows)
 
 
 def _rows(tank: Tank, table: RadiationTable) -> Iterator[Comparison]:
     body, layer = tank.bodies[0], tank.layers[0]
-    inner, outer = body.waterplane
     finite = np.flatnonzero(np.isfinite(table.omega) & (table.omega > 0.0))
-    if isinstance(body, RoundPlate) and layer.depth == inf and not inner:
-        found = table.infinite_frequency_added_mass
-        at_infinity = np.flatnonzero(np.isinf(table.omega))
-        found = table.added_mass[at_infinity[0]] if found is None and len(at_infinity) else found
-        for motion, factor, power in (("heave", DISC_HEAVE, 3), ("pitch", DISC_PITCH, 5)):
-            if found is not None and motion in table.dofs:
-                place = table.dofs.index(motion)
-                theory = factor * layer.density * outer**power
-                unit = "kg" if motion == "heave" else "kg m²"
-                yield _compared(f"a of {motion} at infinite frequency, rigid disc, {unit}", theory, found[place, place])
     if not len(finite):
         return
-    weight = layer.density * tank.gravity
+    weight, slow = layer.density * tank.gravity, int(finite[np.argmin(table.omega[finite])])
     if "heave" in table.dofs:
-        heave, slow = table.dofs.index("heave"), finite[np.argmin(table.omega[finite])]
+        heave = table.dofs.index("heave")
         omega, k = float(table.omega[slow]), float(table.wavenumbers[slow, 0])
         force = table.stiffness[heave, heave]
         spread = depth_integrals(k, layer.depth, 0.0)[2]
         theory = haskind_damping(0, omega, force, spread, layer.density, tank.gravity)
-        yield _compared(
+        yield compared(
             f"|X| of heave in long waves, at {omega:.4g} rad/s, N/m",
             force,
-            float(np.abs(table.excitation_force[slow, 0, 0, heave])),
+            np.abs(table.excitation_force[slow, 0, 0, heave]),
         )
-        yield _compared(
+        yield compared(
             f"b of heave by Haskind from long waves, at {omega:.4g} rad/s, kg/s",
             theory,
             table.radiation_damping[slow, heave, heave],
         )
-    if isinstance(body, RigidFloat) and "surge" in table.dofs and _is_upright(body, layer.density):
-        yield from _standing(tank, table, finite, -body.hull.bounds[2], weight)
+    if isinstance(body, RigidFloat) and "surge" in table.dofs and body.waterplane[0] < 0.0:
+        surge = table.dofs.index("surge")
+        yield compared(
+            f"a of surge by strips, at {table.omega[slow]:.4g} rad/s, kg",
+            body.hydrostatics.mass,
+            table.added_mass[slow, surge, surge],
+        )
+        if _is_upright(body, layer.density):
+            yield from _standing(tank, table, finite, -body.hull.bounds[2], weight)
+        else:
+            yield from _strips(tank, body, table, slow, weight)
+
+
+def _strips(tank: Tank, body: RigidFloat, table: RadiationTable, slow: int, weight: float) -> Iterator[Comparison]:
+    """Surge in the longest waves asked for by strips."""
+    layer, surge = tank.layers[0], table.dofs.index("surge")
+    k, omega = float(table.wavenumbers[slow, 0]), float(table.omega[slow])
+    force = strip_force(body.hull.below, k, layer.depth, weight)
+    spread = depth_integrals(k, layer.depth, 0.0)[2]
+    theory = haskind_damping(1, omega, force, spread, layer.density, tank.gravity)
+    yield compared(
+        f"|X| of surge by strips, at {omega:.4g} rad/s, N/m",
+        force,
+        np.abs(table.excitation_force[slow, 0, 0, surge]),
+    )
+    yield compared(
+        f"b of surge by Haskind from that, at {omega:.4g} rad/s, kg/s",
+        theory,
+        table.radiation_damping[slow, surge, surge],
+    )
 
 
 def _standing(
@@ -109,11 +124,6 @@ def _standing(
 
 
 def _is_upright(body: RigidFloat, density: float) -> bool:
-    """Whether a solid is an upright cylinder about the axis."""
-    left, right = body.waterplane
-    volume = pi * right**2 * -body.hull.bounds[2]
-    return left < 0.0 and abs(body.hydrostatics.mass / (density * volume) - 1.0) < _ALIKE
-
-
-def _compared(quantity: str, theory: float, field: float) -> Comparison:
-    return Comparison(quantity=quantity, theory=theory, field=float(field), difference=float((theory - field) / field))
+    """Whether a solid that the axis passes through is an upright cylinder."""
+    volume = pi * body.waterplane[1] ** 2 * -body.hull.bounds[2]
+    return abs(body.hydrostatics.mass / (density * volume) - 1.0) < _ALIKE

@@ -68,8 +68,8 @@ def _resonance(table: ResonanceTable, estimate: OpenFloatEstimate) -> list[Compa
     expected = estimate.resonance
     found = min(heaves, key=lambda omega: abs(omega - expected))
     return [
-        _compared("Re ω of the resonance, rad/s", expected.real, found.real),
-        _compared("γ = −Im ω, 1/s", -expected.imag, -found.imag),
+        compared("Re ω of the resonance, rad/s", expected.real, found.real),
+        compared("γ = −Im ω, 1/s", -expected.imag, -found.imag),
     ]
 
 
@@ -116,5 +116,8 @@ def _decay(table: DecayTable, profile: Profile, layers: TwoLayers) -> list[Compa
     ]
 
 
-def _compared(quantity: str, theory: float, field: float) -> Comparison:
-    return Comparison(quantity=quantity, theory=theory, field=field, difference=(theory - field) / field)
+def compared(quantity: str, theory: float, field: float) -> Comparison:
+    """Return a value by the theory beside that of the field solution."""
+    return Comparison(
+        quantity=quantity, theory=float(theory), field=float(field), difference=float((theory - field) / field)
+    )

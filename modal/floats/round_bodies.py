@@ -7,17 +7,26 @@ With Z = cosh k(z + H)/cosh kH and N = ∫Z² dz = (tanh kH + kH/cosh² kH)/(2k)
 - long waves: X_heave = ρ g A_w;
 - damping of order n by Haskind's relation from a force, b = π ω |X|²/(2ρ g² c_n ε_n² N): heave ω|X|²/(4ρg²N), surge and
   pitch ω|X|²/(8ρg²N);
-- a disc of radius a beside ψ = 0, in deep water: heave 4/3 ρa³, pitch 8/45 ρa⁵.
+- strips, in long waves: each horizontal slice as if it were endless, of added mass ρA, A its area;
+  X_surge = 2ρ g k ∫A Z dz, the acceleration gkZ of the water times twice the mass displaced;
+- a disc of radius a in deep water: beside ψ = 0 heave 4/3 ρa³, pitch 8/45 ρa⁵; beside a lid 8/3 ρa³, 4/15 ρa⁵;
+- a light, limp disc or ring b < r < a follows the water: heave 2 (a J₁(ka) − b J₁(kb))/(k (a² − b²)).
 """
 
 from __future__ import annotations
 
-from math import cosh, exp, inf, tanh
+from collections.abc import Iterable
+from math import cosh, exp, inf, pi, tanh
 
-from scipy.special import h1vp
+import numpy as np
+from scipy.special import h1vp, j1
+
+from hydroelastic.physics.contours import Arc, arc_quadrature
 
 DISC_HEAVE, DISC_PITCH = 4.0 / 3.0, 8.0 / 45.0
 """Added mass over ρa³ and ρa⁵ of a disc beside ψ = 0."""
+LID_HEAVE, LID_PITCH = 8.0 / 3.0, 4.0 / 15.0
+"""The same beside a lid, ∂ψ/∂z = 0."""
 # kH beyond which the bed is out of reach, and cosh of it still finite.
 _DEEP = 300.0
 
@@ -59,6 +68,36 @@ def standing_cylinder(
     factor = 4.0 * weight / (wavenumber * h1vp(1, wavenumber * radius))
     whole, first, _ = depth_integrals(wavenumber, depth, draught)
     return complex(factor * whole), complex(-factor * (first - about * whole))
+
+
+def strip_force(wet: Iterable[Arc], wavenumber: float, depth: float, weight: float) -> float:
+    """Return the surge force, N/m, of long waves on a solid that the axis passes through, by strips.
+
+    Args:
+        wet: the section's contour under the still level z = 0, from left to right.
+        wavenumber: k, 1/m.
+        depth: H, m.
+        weight: ρg, N/m³.
+    """
+    total = 0.0
+    for arc in wet:
+        x, z, _, dz = arc_quadrature(arc)
+        wave = np.exp(wavenumber * z) + np.exp(-wavenumber * (z + 2.0 * depth))
+        # ∫A Z dz = π∮r² Z dz by Green's theorem, of both halves of the section.
+        total += 0.5 * pi * float((x * np.abs(x) * wave) @ dz)
+    return 2.0 * weight * wavenumber * total / (1.0 + exp(-2.0 * wavenumber * depth))
+
+
+def following_heave(wavenumber: float, inner: float, outer: float) -> float:
+    """Return the mean elevation, per unit of that at the axis, of waves over a disc or ring.
+
+    Args:
+        wavenumber: k, 1/m.
+        inner: b, m; 0 of a disc.
+        outer: a, m.
+    """
+    moment = float(outer * j1(wavenumber * outer) - inner * j1(wavenumber * inner))
+    return 2.0 * moment / (wavenumber * (outer**2 - inner**2))
 
 
 def haskind_damping(order: int, omega: float, force: float, spread: float, density: float, gravity: float) -> float:

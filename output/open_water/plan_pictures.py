@@ -11,8 +11,10 @@ from hydroelastic.output.pictures.colours import BODY, BODY_EDGE, SEQUENCE, dive
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import PictureOptions
 
-# Points across a picture, shades of its colours, and most intervals between their numbers.
-_POINTS, _SHADES, _TICKS = 401, 20, 8
+# Points across a picture, and shades of its colours.
+_POINTS, _SHADES = 401, 20
+# Numbers beside a scale of colours.
+_TICKS = 7
 
 
 def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: PictureOptions) -> None:
@@ -49,4 +51,4 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
             axes.set_aspect("equal")
             axes.set_xlabel("x, m, along the waves")
             axes.set_ylabel("y, m")
-            figure.colorbar(image, ax=axes, label=label, ticks=MaxNLocator(_TICKS), shrink=0.8)
+            figure.colorbar(image, ax=axes, label=label, shrink=0.8, ticks=MaxNLocator(_TICKS))

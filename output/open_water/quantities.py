@@ -142,6 +142,24 @@ def scattering_width(table: ResponseTable) -> Floats | None:
     return np.asarray(4.0 / table.wavenumbers * (sizes @ factors))
 
 
+def directional_scattering(table: ResponseTable, angles: Floats) -> Floats | None:
+    """Return dσ/dθ = 2/(πk) |Σ εₙ aₙ cos nθ|², m/rad, shape (frequencies, 1, angles), whose integral is σ; of solids of
+    revolution in waves on one level.
+
+    Far away iⁿHₙ(kr) is √(2/(πkr)) e^{i(kr − π/4)} of every order n.
+
+    Args:
+        table: of the response.
+        angles: θ from the direction in which the incident waves travel, rad.
+    """
+    if table.partial_waves is None or len(table.waves) > 1:
+        return None
+    orders = np.arange(table.partial_waves.shape[-1])
+    cosines = np.where(orders == 0, 1.0, 2.0)[:, None] * np.cos(np.outer(orders, angles))
+    far = np.abs(table.partial_waves[:, :, 0] @ cosines) ** 2
+    return np.asarray(2.0 / (np.pi * table.wavenumbers[..., None]) * far)
+
+
 def _inverse(name: str) -> Callable[[Any], Floats]:
     def found(table: Any) -> Floats:
         # Infinite in the limit of long waves.
@@ -150,6 +168,9 @@ def _inverse(name: str) -> Callable[[Any], Floats]:
 
     return found
 
+
+SCATTERING_ANGLES: Floats = np.linspace(0.0, np.pi, 37, dtype=np.float64)
+"""Steps of five degrees; the waves on the other side are their mirror images."""
 
 # fmt: off
 # A table: as many arguments on a line as fit.
@@ -254,6 +275,11 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     joined_array("scattering_width", "power of the scattered waves over that of the incident wave per metre of crest",
         "omega wave", "omega wave_direction wave", unit="m", symbol="σ", error="relative_error",
         value=scattering_width, note="of solids of revolution, in waves on one level; `null` of sections"),
+    own_array("scattering_angle", "angle from the direction in which the incident waves travel", "scattering_angle",
+        lambda it: None if it.partial_waves is None else SCATTERING_ANGLES, unit="rad", note="`null` of sections"),
+    own_array("directional_scattering", "scattering width per angle", "omega wave scattering_angle",
+        lambda it: directional_scattering(it, SCATTERING_ANGLES), order="omega wave_direction wave scattering_angle",
+        unit="m/rad", note="as `scattering_width`, which it is the integral of"),
     joined_array("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",

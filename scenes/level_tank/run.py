@@ -63,8 +63,8 @@ run_level_tank = StagedRun(
 
 
 NOTHING_TO_COMPARE = (
-    "There is no comparison: estimates are of elastic plates with free edges, closed forms of waves alone in boxes and "
-    "cylinders, and of sliding plates that cover a box."
+    "There is no comparison: estimates are of elastic plates with free edges, closed forms of waves alone in boxes, "
+    "cylinders, and cones and canals with walls of 45 degrees, and of sliding plates that cover a box."
 )
 
 

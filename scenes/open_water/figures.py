@@ -10,7 +10,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.output.open_water.quantities import scattering_width
+from hydroelastic.output.open_water.quantities import directional_scattering, scattering_width
 from hydroelastic.output.pictures.colours import BLUE
 from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MOST_DEFLECTIONS = 6
+_MOST_DIRECTIONS = 5
+# Angles of a polar plot.
+_AROUND = 361
 _MOST_CURVES = 8
 _MOST_MOTIONS = 12
 # Of forces each wave has a curve: a legend of more would leave them no room.
@@ -47,6 +50,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
         _draw_radiation(radiation, sheets, f"radiation_{number}", solution.tank.geometry.is_whole)
     for number, response in enumerate(solution.response, 1):
         _draw_response(response.curve or response, sheets, f"response_{number}")
+        _draw_directions(response, sheets, f"scattering_{number}")
         for place, plate in enumerate(response.plates):
             _draw_deflection(response, place, sheets, f"deflection_{number}_body_{plate.body + 1}")
     for number, resonance in enumerate(solution.resonance, 1):
@@ -189,6 +193,24 @@ def _passed(omega: np.ndarray, size: np.ndarray) -> float:
     widths = np.gradient(omega)[descending] if len(omega) > 1 else np.ones(1)
     place = np.searchsorted(np.cumsum(widths), _NARROW * widths.sum())
     return float(size[descending[place]])
+
+
+def _draw_directions(table: ResponseTable, sheets: Sheets, name: str) -> None:
+    """Where solids of revolution scatter power to, over its mean, from the direction of the waves to the right."""
+    angles = np.linspace(0.0, 2.0 * np.pi, _AROUND, dtype=np.float64)
+    found, width = directional_scattering(table, angles), scattering_width(table)
+    if found is None or width is None:
+        return
+    with sheets.sheet(name, "directions of the scattered power, over the mean", width=8.0) as figure:
+        axes = figure.subplots(subplot_kw={"projection": "polar"})
+        scattering = np.flatnonzero(width[:, 0] > 0.0)
+        shown = scattering[np.argsort(table.omega[scattering])]
+        shown = shown[np.unique(np.linspace(0, len(shown) - 1, min(len(shown), _MOST_DIRECTIONS)).round().astype(int))]
+        for row, colour in zip(shown, sequence_colours(len(shown)), strict=True):
+            label = f"ω = {table.omega[row]:.4g} rad/s, σ = {width[row, 0]:.3g} m"
+            axes.plot(angles, 2.0 * np.pi * found[row, 0] / width[row, 0], color=colour, label=label)
+        axes.set_xlabel("θ from the direction of the waves")
+        axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
 
 
 def _incident(table: RadiationTable | ResponseTable) -> list[str]:

@@ -86,9 +86,11 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
     draw_fields(water.fields, folder, options)
     if water.plans:
         from hydroelastic.output.open_water.plan_pictures import draw_plan_waves
+        from hydroelastic.output.open_water.wave_views import draw_wave_view
 
         for waves in water.plans:
             draw_plan_waves(waves, water.solution.scene.title, folder, options)
+            draw_wave_view(waves, water.solution.scene.title, folder, options)
 
 
 run_open = StagedRun(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.modal.liquid.sloping_walls import lowest_between_slopes
+from hydroelastic.modal.plate.round_estimates import round_plate_estimates
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.physical import physical_tank
@@ -12,7 +14,7 @@ from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 
 def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
-    """Solve a tank of revolution (collective).
+    """Solve a tank of revolution, or of one section over a width, and estimate it (collective).
 
     Raises:
         SceneError: if no mesh can be made.
@@ -22,14 +24,15 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
     from hydroelastic.fem.tank.round_solution import round_solution
     from hydroelastic.meshes.tagged_mesh import MeshError
 
-    asked = scene.accuracy
+    asked, physical, watch = scene.accuracy, physical_tank(scene), Stopwatch()
     try:
-        solution = round_solution(
-            physical_tank(scene), tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report
-        )
+        solution = round_solution(physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report)
     except MeshError as error:
         problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
         raise SceneError(problem) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return SolvedLevelTank(scene=scene, tank=solution)
+    with watch.stage("estimates"):
+        exact = lowest_between_slopes(physical)
+        estimates = tuple(round_plate_estimates(physical, solution.physical))
+    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)

@@ -72,9 +72,9 @@ def test_few_frequencies_have_no_curve() -> None:
 
 def test_plan_views_are_of_the_frequencies_asked_for(table: ResponseTable) -> None:
     """Of two there are two files; of none, that of the largest motion."""
-    asked = response(*OMEGAS[:2], fields_at=(0.7, 0.8))
+    asked = response(*OMEGAS[:2], fields_at=OMEGAS[:2])
     plans = list(plan_waves(problem_of([SPAR], 20.0, TOLERANCE), asked, 2))
-    assert [(plan.name, plan.omega) for plan in plans] == [("response_2_001", 0.7), ("response_2_002", 0.8)]
+    assert [(plan.name, plan.omega) for plan in plans] == [("response_2_001", OMEGAS[0]), ("response_2_002", OMEGAS[1])]
     # Nothing but the dispersion relation ω² = gk tanh kH tells the length of the waves.
     for plan in plans:
         k = plan.wavenumber

@@ -58,6 +58,10 @@ def test_keys_that_do_not_fit_are_refused() -> None:
     assert "one side of a section" in refusal(shape="revolved", outline=[[0, -1], [1, -1], [0, 0], [1, 1]])
     with pytest.raises(ValidationError, match="sections only"):
         sea(CYLINDER, analysis=[{"kind": "resonance", "largest_damping": 1.0}], liquid=[{**WATER[0]}])
+    with pytest.raises(ValidationError, match="only the response to waves from the left in one liquid is drawn"):
+        sea(CYLINDER, analysis=[{"kind": "radiation", "omega": [1.0], "fields_at": [1.0]}])
+    with pytest.raises(ValidationError, match="the response is not solved for there"):
+        sea(CYLINDER, analysis=[{"kind": "response", "omega": [1.0], "fields_at": [1.1]}])
 
 
 def test_results_of_solids_are_whole_and_named_as_theirs() -> None:

@@ -171,22 +171,22 @@ def plan_views_are_of_waves_solved_for(scene: TankParts) -> Iterator[InitErrorDe
     """Yield frequencies of fields about solids, of which the waves that come are drawn in plan, that do not exist."""
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
         asked = getattr(analysis, "fields_at", ())
-        drawn = isinstance(analysis, Response) and len(scene.liquid) == 1 and analysis.waves_from == "left"
-        if asked and not drawn:
+        if isinstance(analysis, Response) and len(scene.liquid) == 1 and analysis.waves_from == "left":
+            for omega in asked:
+                if not any(isclose(omega, one) for one in analysis.omega):
+                    yield problem_at(
+                        ("analysis", index, "fields_at"),
+                        omega,
+                        "the response is not solved for there",
+                        allowed="the frequencies of omega",
+                    )
+        elif asked:
             yield problem_at(
                 ("analysis", index, "fields_at"),
                 list(asked),
                 "of solids of revolution only the response to waves from the left in one liquid is drawn, in plan",
                 remedy="Leave it out",
             )
-        for omega in asked if drawn else ():
-            if not any(isclose(omega, one) for one in analysis.omega):
-                yield problem_at(
-                    ("analysis", index, "fields_at"),
-                    omega,
-                    "the response is not solved for there",
-                    allowed="the frequencies of omega",
-                )
 
 
 def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetails]:

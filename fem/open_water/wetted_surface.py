@@ -53,9 +53,9 @@ class WettedSurface:
         densities = np.array([layer.density for layer in liquid.layers])
         self._weights = np.concatenate([np.empty(0), *weights]) * densities[self.layers]
         columns, upright = self.points.T, self.normals.T
-        self.shapes = np.array([body.shapes(columns, upright, number) for number in range(body.size)]).reshape(
-            body.size, len(self.points)
-        )
+        # Shapes are not asked for at no points, where a process has none.
+        sampled = [body.shapes(columns, upright, number) for number in range(body.size) if len(self.points)]
+        self.shapes = np.array(sampled).reshape(body.size, len(self.points))
 
     def loads(self, fluxes: np.ndarray) -> np.ndarray:
         """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)
@@ -68,7 +68,8 @@ class WettedSurface:
             local.append(own.reshape(len(parts), -1))
             first += count
         size = len(self._liquid.layer_of)
-        loads = np.array([np.bincount(self._unknowns, values, size) for values in np.hstack(local)])
+        # Of no values NumPy returns integers, into which nothing can be summed.
+        loads = np.array([np.bincount(self._unknowns, values, size) for values in np.hstack(local)], dtype=float)
         summed = self._liquid.numbering.summed(loads)
         complex_loads: np.ndarray = summed[: len(fluxes)] + 1j * summed[len(fluxes) :]
         return complex_loads

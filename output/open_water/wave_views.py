@@ -77,8 +77,10 @@ def _view(waves: PlanWaves, amplitude: float, size: tuple[int, int]) -> NDArray[
             opacity=1.0 if is_plate else 0.8,
             show_scalar_bar=False,
         )
-        if is_plate:
-            plotter.add_mesh(surface.extract_feature_edges(feature_edges=False), color=INK, line_width=2.0)
+        for row in (0, -1) if is_plate else ():
+            # At the axis it is a point.
+            edge_line = np.column_stack([axis[row].ravel() for axis in (surface.x, surface.y, surface.z)])
+            plotter.add_mesh(pyvista.lines_from_points(edge_line), color=INK, line_width=2.0)
     for solid in waves.solids:
         plotter.add_mesh(_revolved(solid, amplitude), color=BODY, smooth_shading=True, split_sharp_edges=True)
     plotter.view_vector(_FROM, viewup=(0.0, 0.0, 1.0))

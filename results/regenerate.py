@@ -47,9 +47,9 @@ SHOWN = PictureOptions(width=720, dpi=85)
 # Scenes whose pictures are kept smaller, with the names of the most telling ones.
 FEW = {
     "conical_tank": "mode_001.png",
-    "hemisphere": "*response_1.png",
-    "ice_floe": "[pv]*_response_1.png",
-    "point_absorber": "*response_1.png",
+    "hemisphere": "[rv]*_1.png",
+    "ice_floe": "[rv]*_1.png",
+    "point_absorber": "[rv]*_1.png",
     "ship_tank": "mode_001.png",
     "spar": "re*.png",
     "spherical_tank": "mode_001.png",

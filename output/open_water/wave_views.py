@@ -122,7 +122,7 @@ def _ring(waves: PlanWaves, inner: float, outer: float, amplitude: float) -> pyv
     return grid
 
 
-def _revolved(solid: MovingSolid, amplitude: float) -> pyvista.PolyData:
+def _revolved(solid: MovingSolid, amplitude: float) -> pyvista.StructuredGrid:
     """The surface of a body, displaced as at t = 0."""
     import pyvista
 
@@ -130,5 +130,4 @@ def _revolved(solid: MovingSolid, amplitude: float) -> pyvista.PolyData:
     r, level = solid.outline[:, :1], solid.outline[:, 1:]
     x, y, z = r * np.cos(angles), r * np.sin(angles), level + 0.0 * angles
     surge, heave, pitch = (amplitude * motion.real for motion in map(complex, (solid.surge, solid.heave, solid.pitch)))
-    moved = pyvista.StructuredGrid(x + surge - pitch * (z - solid.centre), y, z + heave + pitch * x)
-    return moved.extract_surface()
+    return pyvista.StructuredGrid(x + surge - pitch * (z - solid.centre), y, z + heave + pitch * x)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -21,21 +21,9 @@ _DIGITS = 34.0
 _MOST_DEPTH_TERMS = 40_000
 
 
-@dataclass(frozen=True, kw_only=True)
-class ReleasedShapes:
-    """Dry shapes with ψ = 0 on the water around the beam, per length of it for ∫W² dz = l, kg/m².
-
-    Attributes:
-        added_mass: symmetric positive definite, shape (shapes, shapes).
-        last_terms: the part of it that the last eighth of the expansion of ψ adds, of the same shape: more than what
-            all omitted terms would add, for they decrease exponentially.
-    """
-
-    added_mass: FloatArray
-    last_terms: FloatArray
-
-
-def pressure_release_added_mass(beam: FloatingBeam, count: int, terms: int | None = None) -> FloatArray:
+def pressure_release_added_mass(
+    beam: FloatingBeam, count: int, terms: int | None = None, *, most: int = MOST_TERMS
+) -> FloatArray:
     """Return the added-mass matrix of dry shapes when ψ = 0 on the free surface (`ChebPsi0`).
 
     With x = x_c + a t and ψ = Σ c_j √(1−t²) U_j(t) under the beam,
@@ -51,24 +39,19 @@ def pressure_release_added_mass(beam: FloatingBeam, count: int, terms: int | Non
     Args:
         beam: the problem; some surface must be free.
         count: number of shapes of `free_free_shape`, heave and pitch included.
-        terms: length of the expansion; chosen from the gaps, the depth and ``count`` if ``None``.
+        terms: length of the expansion; if ``None``, from the gaps, the depth and ``count``, so that it is right to
+            rounding unless the beam touches a wall.
+        most: the longest expansion.
 
     Returns:
         Added mass per length for ∫W² dz = l, kg/m², shape (count, count), symmetric positive definite.
 
     Raises:
         NoEstimateError: if the beam covers the tank, or a gap or the depth is so small against the beam that more than
-            `MOST_TERMS` terms would be needed.
+            ``most`` terms would be needed.
 
     Source: theory of the aquarium, docs, § 2 (psi0) and § 3 (method D).
     """
-    return released_shapes(beam, count, terms).added_mass
-
-
-def released_shapes(
-    beam: FloatingBeam, count: int, terms: int | None = None, *, most: int = MOST_TERMS
-) -> ReleasedShapes:
-    """As `pressure_release_added_mass`, with the part of the last terms; refused where ``most`` of them are too few."""
     if beam.covers_tank:
         raise NoEstimateError("no surface is free where the pressure could be released")
     wanted = _terms_needed(beam, count) if terms is None else terms
@@ -79,12 +62,11 @@ def released_shapes(
         raise NoEstimateError("the water is too shallow against the length of the tank for the cosine series")
     # What does not touch the liquid is left out of the key of the cache.
     alike = replace(beam.dimensionless(), flexural_rigidity=1.0, mass_per_length=1.0, hydrostatic=True)
-    added, last = dimensionless_added_mass(alike, count, wanted)
+    added = dimensionless_added_mass(alike, count, wanted)
     if beam.touches_wall:
-        finer, last = dimensionless_added_mass(alike, count, 2 * wanted)
+        finer = dimensionless_added_mass(alike, count, 2 * wanted)
         added = finer + (finer - added) / 15
-    unit = beam.density * beam.length
-    return ReleasedShapes(added_mass=unit * added, last_terms=unit * last)
+    return beam.density * beam.length * added
 
 
 def _terms_needed(beam: FloatingBeam, count: int) -> int:
@@ -109,8 +91,8 @@ def _mirrored(beam: FloatingBeam) -> tuple[float, float, bool]:
 
 
 @functools.lru_cache(maxsize=4)
-def dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> tuple[FloatArray, FloatArray]:
-    """Return the `ReleasedShapes` of a dimensionless problem; EI, m and hydrostatics do not enter."""
+def dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> FloatArray:
+    """Return the added mass of a dimensionless problem; EI, m and hydrostatics do not enter."""
     centre, half, doubled = _mirrored(beam)
     orders = np.arange(0, 2 * terms, 2) if doubled else np.arange(terms)
     points = int(orders[-1]) + 33
@@ -126,10 +108,8 @@ def dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> tupl
     else:
         # The rule has points enough for the shapes too, as the number of terms grows with theirs.
         load = half * expansion @ free_free_shapes(count, (1 + np.cos(angle)) / 2).T
-    coefficients = np.linalg.solve(system, load)
-    added = load.T @ coefficients
-    last = slice(-max(2, terms // 8), None)
-    return (added + added.T) / 2, coefficients[last].T @ (weights[last, None] * coefficients[last])
+    added: FloatArray = load.T @ np.linalg.solve(system, load)
+    return (added + added.T) / 2
 
 
 def _half_loads(beam: FloatingBeam, count: int, orders: np.ndarray) -> FloatArray:

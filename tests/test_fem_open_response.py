@@ -18,7 +18,9 @@ from open_cases import (
     radiation,
     response,
     section,
+    slender,
     stored,
+    thin_omega,
     two_liquids,
 )
 from open_levels import one_liquid
@@ -175,6 +177,14 @@ def test_free_float_moves_as_its_coefficients_say() -> None:
     # Both keep 1e-4, and are on the same mesh up to the resolution that they end with.
     np.testing.assert_allclose(moving.amplitudes[0, 0], motions, rtol=0, atol=3e-4 * np.abs(motions).max())
     assert abs(moving.energy_residual[0, 0]) <= 1e-4
+
+
+def test_a_long_wave_lifts_a_thin_float_by_its_height() -> None:
+    kappa = 1e-3
+    table = response(slender("parabola", "water", 1e-4), thin_omega("water", kappa)).table
+    # Its middle is at x = 5. The float differs from the water by κ = ω²h/g times a number of order 1, measured 0.4.
+    carried = np.exp(5j * table.wavenumbers[0, 0])
+    assert abs(table.amplitudes[0, 0, 0] / carried - 1.0) < kappa
 
 
 @SLOW

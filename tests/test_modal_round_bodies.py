@@ -34,6 +34,12 @@ def test_a_cylinder_on_the_bed_is_pushed_as_in_the_references(case: dict[str, An
         assert force == pytest.approx(complex_of(values[key]), rel=1e-11)
 
 
+def test_a_cylinder_in_long_waves_is_pushed_in_the_middle_of_its_draught() -> None:
+    """The pressure of long waves is that of the surface at any depth, but for kd = 2e-4."""
+    arm = [standing_cylinder(1e-4, math.inf, 1.0, 2.0, 9810.0, about) for about in (0.0, -1.0, 0.5)]
+    assert [(pitch / surge).real for surge, pitch in arm] == pytest.approx([1.0, 0.0, 1.5], abs=2e-4)
+
+
 def test_integrals_over_the_depth_are_those_of_quadrature_and_tend_to_deep_water() -> None:
     """Gauss points of degree 79 integrate the smooth Z to rounding; at kH = 200 Z differs from e^{kz} by e^{−400}."""
     k, depth, draught = 0.7, 3.0, 2.0

@@ -10,12 +10,16 @@ from open_cases import problem_of
 from scipy.integrate import solve_ivp
 from scipy.optimize import newton
 
+from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import solve_decay
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, ResonanceRequest
 from hydroelastic.fem.open_water.resonance import solve_resonance
 from hydroelastic.fem.open_water.results import ResponseTable
 from hydroelastic.fem.open_water.solve import resonance_reasons
+from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.floats.thin_float_radiation import complex_added_mass
 from hydroelastic.modal.liquid.two_layer import TwoLayers
@@ -150,6 +154,21 @@ def test_a_spring_between_two_bodies_moves_them_together() -> None:
     first, second = table.amplitudes[0, 0]
     assert abs(first) > 0.1
     assert first == pytest.approx(second, rel=1e-4)
+
+
+@pytest.mark.parametrize("body", [BARGE, {"kind": "float", "shape": "cylinder", "radius": 3.0, "draught": 1.0}])
+def test_motions_over_time_have_the_given_spring_damper_and_drag(body: dict[str, Any]) -> None:
+    """The basin has units of its own, per metre of width or whole, that must not be seen in SI units."""
+    given = {"stiffness": [7.0, 0.0, 0.0], "damping": [5.0, 0.0, 0.0], "quadratic_damping": [3.0, 0.0, 0.0]}
+    asked = {"kind": "response", "omega": [1.0], "wave_amplitude": 0.1}
+    water = problem_of(sea(body | {"motions": ["heave"]}, given, analysis=[asked])).tank
+    basin = open_basin(water, 0.0)
+    assert basin.units.length > 1.0
+    bodies = whole_bodies(basin.tank, (0,))
+    found = motion_scale(basin, bodies).outside(outside_of(basin, bodies, water.attachments))
+    # Of heave at 1 m/s; rounding of powers of a length.
+    moved = [found.stiffness[0, 0], found.damping[0, 0], found.drag[0] * abs(found.paths[0, 0]) ** 3]
+    assert moved == pytest.approx([7.0, 5.0, 3.0], rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,7 @@ class MotionScale:
     def outside(self, forces: OutsideForces) -> OutsideForces:
         """Convert forces from outside on the dimensionless body unknowns to those on the motions in SI units."""
         units = self.units
-        drag = units.density * units.gravity * units.length**3 / units.frequency**2
+        drag = units.density * units.gravity * units.volume * units.length / units.frequency**2
         return OutsideForces(
             stiffness=self.stiffnesses(forces.stiffness),
             damping=self.stiffnesses(forces.damping) / units.frequency,

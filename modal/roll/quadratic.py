@@ -181,13 +181,9 @@ class _Stage:
         return derivatives
 
     def sign(self, time: float, state: tuple[float, float]) -> float:
-        """Return the sign of φ' just after a time: that of its first derivative that is not 0."""
+        """Return the sign of φ' just after a time: its own, or that of φ''; where both are 0 it may be either."""
         _, acceleration = self.right_side(0.0)(time, state)
-        jerk = self.slope * self.frequency * math.cos(self.frequency * time)
-        for value in (state[1], acceleration, jerk):
-            if value:
-                return math.copysign(1.0, value)
-        return 0.0
+        return math.copysign(1.0, state[1] or acceleration)
 
     def solve(
         self, state: tuple[float, float], duration: float, absolute: tuple[float, float]
@@ -215,7 +211,7 @@ class _Stage:
         times, interpolants = [0.0], []
         while times[-1] < duration:
             sign = self.sign(times[-1], state)
-            # Where the rate almost only touches 0 it may have the other sign; or none, as |φ'|φ' is.
+            # Where the rate begins at 0, or almost only touches it, it may have the other sign; or none, as |φ'|φ' is.
             for tried in (sign, -sign, 0.0):
                 result = piece(times[-1], tried)
                 if result.t[-1] > times[-1]:

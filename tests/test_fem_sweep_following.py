@@ -79,6 +79,8 @@ def test_a_crossing_is_told_from_a_veering(apart: bool) -> None:
     assert one.reason == ("opposite symmetry" if apart else "no coupling within the errors")
     assert one.at == pytest.approx(WHERE, abs=1e-3)
     assert one.omega == pytest.approx(np.sqrt(MEAN), abs=1e-3)
+    # Both ends of the step foresee it, and one solution there is enough.
+    assert found.refined.sum() == 1
     # Each branch keeps its shape, so its order changes.
     assert found.participation(0)[:, 0] == pytest.approx(found.participation(0)[0, 0])
     assert found.branches[0].tolist() == [0, 1, 2]

@@ -19,8 +19,8 @@ from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.profile import thread_profile
 from hydroelastic.fem.thread.refinement import CompressionError, solve_thread
 from hydroelastic.modal.thread.march import march_back, march_tail
-from hydroelastic.physics.stream import ShearedStream, TabulatedStream
-from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
+from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream
+from hydroelastic.physics.thread import PointLoad, StretchDrag, Thread, ThreadEnd
 from hydroelastic.physics.thread_load import ThreadLoad
 
 COMM = MPI.COMM_WORLD
@@ -57,6 +57,25 @@ def test_free_tail_in_a_sheared_stream() -> None:
     )
     assert solution.profile.tension_at(s)[0] == pytest.approx(marched.at([0.0]).tensions[0], rel=1e-6)
     assert abs(solution.profile.tension[-1, 1]) < 1e-9 * solution.profile.tension[0, 0]
+
+
+@pytest.mark.parametrize(("stretch_drag", "factor"), [("none", 1.0), ("volume", 1.2)])
+def test_a_stretched_thread_has_the_drag_of_its_thinner_diameter(stretch_drag: StretchDrag, factor: float) -> None:
+    """Stretched by λ = 1.44 its length grows by λ, and its diameter at constant volume falls by √λ."""
+    model = Thread(
+        dimension=2,
+        length=1.0,
+        ends=(held_at([0.0, 0.0]), held_at([0.0, 1.44])),
+        axial_rigidity=1000.0,
+        normal_drag=3.0,
+        stretch_drag=stretch_drag,
+        stream=UniformStream((0.5, 0.0, 0.0)),
+    )
+    start = Start(position=lambda s: np.outer(s, [0.0, 1.44]), force=lambda s: np.full(s.shape, 440.0))
+    profile = thread_profile(solve_on_mesh(COMM, model, np.linspace(0.0, 1.0, 5), start, degree=2))
+    drag = profile.force[0, 0] - profile.force[-1, 1]
+    # It turns by q/(2T) = 1e-3 only, which changes stretch and drag by the square.
+    assert drag == pytest.approx([0.75 * factor, 0.0], abs=2e-6)
 
 
 @pytest.mark.mpi

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +16,7 @@ from thread_mode_cases import COMM, in_axial_flow, straight_pair, straight_threa
 
 from hydroelastic.fem.thread.eigenpairs import eigenpairs, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, solve_on_mesh
-from hydroelastic.fem.thread.hyperbolicity import IllPosedError
+from hydroelastic.fem.thread.hyperbolicity import IllPosedError, require_real_wave_speeds
 from hydroelastic.fem.thread.modes import Roots, ThreadModes, thread_modes
 from hydroelastic.fem.thread.operators import thread_operators
 from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
@@ -294,8 +295,8 @@ def test_body_on_a_thread_without_mass() -> None:
         assert np.min(np.abs(modes.oscillating.values - root)) < 1e-9
 
 
-def string_in_axial_flow(name: str, reactive: Reactive) -> tuple[Equilibrium, Equilibrium]:
-    given = inputs(name)
+def string_in_axial_flow(name: str, reactive: Reactive, **changes: float) -> tuple[Equilibrium, Equilibrium]:
+    given = inputs(name) | changes
     stream = UniformStream((given["U"], 0.0, 0.0))
     options = {"length": given["L"], "mass": given["m"], "added_mass": given["M"]}
     return straight_pair(straight_thread(**options, reactive=reactive, stream=stream), given["T"], 20, 5)
@@ -317,6 +318,14 @@ def test_string_that_the_stream_makes_ill_posed(reactive: Reactive) -> None:
     for value in exact:
         # Far from normal: what one mesh tells of them.
         assert np.min(np.abs(growing.values - value)) < 1e-6 * value
+
+
+def test_short_waves_grow_from_the_speed_at_which_the_tension_no_longer_carries_both_masses() -> None:
+    """m ma U²/(m + ma) = T, here of m = 1 and ma = 3; from ma U² = T up to it the string is gyroscopic."""
+    for part in (0.999, 1.001):
+        equilibrium, _ = string_in_axial_flow("M07a", "moving_load", M=3.0, U=part * np.sqrt(4.0 / 3.0))
+        with nullcontext() if part < 1.0 else pytest.raises(IllPosedError, match="m ma W²"):
+            require_real_wave_speeds(equilibrium)
 
 
 @pytest.mark.parametrize(("speed", "share"), [(2.0, 0.3), (7.0, 0.5)])

@@ -1,6 +1,7 @@
 """The elevation of the water at points, less the motion of these: against waves far away, and a closed form."""
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,9 @@ import pytest
 from mpi4py import MPI
 from scipy.special import h1vp, hankel1, jvp
 
+from hydroelastic.fem.open_water.surface_elevation import incident_elevations
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import SeaScene
 from hydroelastic.scenes.open_water.solve import solve_open
@@ -61,6 +65,26 @@ def test_water_rises_as_far_waves_and_the_motion_of_the_point_say() -> None:
     assert gap.smallest_air_gap == pytest.approx(2.0 - gap.relative_elevation.largest_amplitude)
     # m₀ of the waves is 1, and hardly any of T changes in the band.
     assert gap.relative_elevation.significant_amplitude == pytest.approx(2.0 * abs(passed), rel=3e-2)
+
+
+@pytest.mark.parametrize(("waves_from", "towards"), [("left", 1.0), ("right", -1.0)])
+def test_the_free_top_of_two_liquids_rises_less_than_the_interface(waves_from: str, towards: float) -> None:
+    """η/ζ = ω²/(ω² cosh kh − gk sinh kh) of the top at h above an interface on which a wave ζ travels."""
+    omega, height, crest, x = 1.0, 1.0, 0.5, 2.0
+    layers = TwoLayers(
+        density_below=1000.0, density_above=800.0, depth_below=4.0, depth_above=height, gravity=GRAVITY, top="free"
+    )
+    wave = travelling_waves(layers, omega)[0]
+    k = wave.wavenumber
+    basin = SimpleNamespace(phase_at=crest, units=SimpleNamespace(length=1.0))
+    response = SimpleNamespace(incidence=SimpleNamespace(planes=[SimpleNamespace(wave=wave)]), incident=[0])
+    curves: Any = SimpleNamespace(solver=SimpleNamespace(model=SimpleNamespace(basin=basin)), responses=[response])
+    request: Any = SimpleNamespace(waves_from=waves_from, air_gaps=[SimpleNamespace(at=(x, 3.0))])
+    ((found,),), _ = incident_elevations(curves, request)
+    ratio = omega**2 / (omega**2 * math.cosh(k * height) - GRAVITY * k * math.sinh(k * height))
+    assert -0.2 < ratio < 0.0
+    # The slope at the top is a difference of two exponentials that nearly cancel.
+    assert found == pytest.approx(ratio * np.exp(1j * towards * k * (x - crest)), rel=1e-10)
 
 
 @pytest.mark.slow

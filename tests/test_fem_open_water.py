@@ -17,6 +17,7 @@ from hydroelastic.fem.open_water.incident_waves import incidence, incident_waves
 from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.geometry import PLANE
@@ -177,6 +178,26 @@ def test_reduced_basis_meets_what_it_was_given(name: str, request: pytest.Fixtur
     # Second order: forces err like the square of the residual, up to a factor that the sweep measures.
     assert 0.0 < error <= 30.0 * residual**2 + 1e-12
     assert between.diffraction_force == pytest.approx(exact.diffraction_force, abs=2e-2 * residual * scale + 1e-9)
+
+
+def test_the_norm_of_a_damped_resonance_is_the_slope_of_the_dynamic_stiffness(rectangle: OpenModel) -> None:
+    """xᵀT'x = aᵀD'a of D = K − iωB − λ(M + H), on which the residues of motions after a release depend."""
+    pencil, mass = rectangle.pencil, rectangle.mass
+    damping = 0.3 * np.sqrt(np.outer(np.diag(mass), np.diag(mass)))
+    guess = float(np.max(np.diag(rectangle.stiffness) / np.diag(mass)))
+    pair = ResonanceSearch(pencil, rectangle.stiffness, mass, damping).refined(guess * (0.5 - 0.2j))
+    solver, loads = pencil.solver(), pencil.loads.astype(complex)
+
+    def dynamic(squared: complex) -> complex:
+        solver.shift(squared)
+        added = pencil.products(loads, np.array([solver.solve(load) for load in loads]))
+        matrix = rectangle.stiffness - 1j * np.sqrt(squared) * damping - squared * (mass + added)
+        return complex(pair.bodies @ matrix @ pair.bodies)
+
+    step = 1e-4 * pair.eigenvalue
+    slope = (dynamic(pair.eigenvalue + step) - dynamic(pair.eigenvalue - step)) / (2.0 * step)
+    # Central differences leave some 1e-8.
+    assert pair.norm == pytest.approx(slope, rel=1e-6)
 
 
 def test_basis_takes_no_vector_twice(rectangle: OpenModel) -> None:

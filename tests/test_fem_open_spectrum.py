@@ -83,11 +83,24 @@ def test_drag_in_irregular_waves_takes_the_power_of_its_linear_damping() -> None
     assert amplitudes(low)["roll"] == pytest.approx(amplitudes(free)["roll"], rel=0.1)
 
 
+def test_dampers_and_drag_take_power_of_a_whole_solid() -> None:
+    """The same in N and W, of which the basin has units of its own."""
+    body = {"kind": "float", "shape": "cylinder", "radius": 3.0, "draught": 3.0, "motions": ["heave"]}
+    held = {"damping": [2e4, 0.0, 0.0], "quadratic_damping": [5e4, 0.0, 0.0]}
+    (table,) = solved(body, [WAVES], 3e-2, attachment=[held]).spectrum
+    variance = np.trapezoid(table.omega**2 * table.response_density[:, 0], table.omega)
+    # But for the trapezoidal rule, measured 2e-5.
+    assert table.equivalent_damping[0, 0] == pytest.approx(np.sqrt(8.0 / np.pi) * 5e4 * np.sqrt(variance), rel=1e-3)
+    assert table.mean_absorbed_power == pytest.approx(2e4 * variance, rel=1e-3)
+
+
 def test_a_narrow_band_drifts_as_a_regular_wave() -> None:
     body = BARGE | {"motions": ["heave"]}
     band = {"kind": "spectrum", "waves": "table", "omega": [0.899, 0.9, 0.901], "density": [0.0, 50.0, 0.0]}
     regular = {"kind": "response", "omega": [0.9]}
-    solution = solved(body, [band, regular])
+    # Waves from the right push to the left.
+    solution = solved(body, [one | {"waves_from": "right"} for one in (band, regular)])
+    assert solution.response[0].drift_force[0, 0] < 0.0
     # 2 (F/A²) m₀ with m₀ = ½ · 0.002 · 50; F/A² changes by less than 1 % in the band.
     expected = 2.0 * solution.response[0].drift_force[0, 0] * 0.05
     assert solution.spectrum[0].mean_drift_force == pytest.approx(expected, rel=1e-2)

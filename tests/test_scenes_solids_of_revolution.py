@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
-from math import pi, sqrt, tanh
+from math import inf, pi, sqrt, tanh
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from pydantic import ValidationError
 
+from hydroelastic.output.open_water.quantities import RESPONSE
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
@@ -20,6 +22,7 @@ from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_round_tank
 from hydroelastic.scenes.open_water.run import run_open
+from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank
 from hydroelastic.scenes.tank.check_tables import hydrostatics_table
@@ -62,6 +65,24 @@ def test_keys_that_do_not_fit_are_refused() -> None:
         sea(CYLINDER, analysis=[{"kind": "radiation", "omega": [1.0], "fields_at": [1.0]}])
     with pytest.raises(ValidationError, match="the response is not solved for there"):
         sea(CYLINDER, analysis=[{"kind": "response", "omega": [1.0], "fields_at": [1.1]}])
+
+
+def test_the_capture_width_is_the_power_of_the_damper_over_that_of_a_metre_of_crest() -> None:
+    """½Bω²|ξ|² over ½ρg c_g of deep water, c_g = g/(2ω)."""
+    omega, damping = 2.0, 4e3
+    scene = sea(
+        CYLINDER | {"motions": ["heave"]},
+        liquid=[{"density": 1000.0, "depth": inf}],
+        attachment=[{"damping": [damping, 0.0, 0.0]}],
+        analysis=[{"kind": "response", "omega": [omega]}],
+        accuracy={"tolerance": 1e-2},
+    )
+    (table,) = RESPONSE.of(solve_open(scene, MPI.COMM_WORLD, lambda _message: None))
+    taken = damping * omega**2 * abs(table.amplitudes[0, 0, 0]) ** 2
+    # The same motion, so that rounding is left.
+    assert RESPONSE.evaluated(table)["capture_width"][0][0] == pytest.approx(
+        taken / (1000.0 * 9.81**2 / (2.0 * omega)), rel=1e-9
+    )
 
 
 def test_results_of_solids_are_whole_and_named_as_theirs() -> None:

@@ -156,18 +156,26 @@ def test_a_dry_membrane_vibrates_at_the_zeros_of_bessel_functions(order: int, ze
 
 
 @pytest.mark.parametrize(
-    ("orders", "moment", "shear", "curvature"),
+    ("orders", "poisson", "moment", "shear", "curvature"),
     [
         # w = (1 + i) x²: W₀ = W₂ = (1 + i) r²/2; w_xx = 2 (1 + i).
-        ({0: [0.0, 0.0, 0.5 + 0.5j], 2: [0.0, 0.0, 0.5 + 0.5j]}, lambda x: 2.0 + 2.0j + 0.0 * x, 0.0, math.sqrt(8.0)),
+        (
+            {0: [0.0, 0.0, 0.5 + 0.5j], 2: [0.0, 0.0, 0.5 + 0.5j]},
+            0.0,
+            lambda x: 2.0 + 2.0j + 0.0 * x,
+            0.0,
+            math.sqrt(8.0),
+        ),
         # w = x³: W₁ = ¾ r³, W₃ = ¼ r³.
-        ({1: [0.0, 0.0, 0.0, 0.75], 3: [0.0, 0.0, 0.0, 0.25]}, lambda x: 6.0 * x, 6.0, 12.0),
+        ({1: [0.0, 0.0, 0.0, 0.75], 3: [0.0, 0.0, 0.0, 0.25]}, 0.0, lambda x: 6.0 * x, 6.0, 12.0),
+        # w = x² − y²: W₂ = r², of the same bending or twist in all directions; M = D (1 − ν) w_xx.
+        ({2: [0.0, 0.0, 1.0]}, 0.3, lambda x: 1.4 + 0.0 * x, 0.0, 2.0),
     ],
 )
 def test_moments_strain_and_stress_are_those_of_polynomials(
-    orders: dict[int, list[complex]], moment: Any, shear: float, curvature: float
+    orders: dict[int, list[complex]], poisson: float, moment: Any, shear: float, curvature: float
 ) -> None:
-    """On a disc of radius 2 with ν = 0: M = D w_xx, Q = D w_xxx, strain h/2 w_xx and stress 6M/h²."""
+    """On a disc of radius 2: M = D (w_xx + ν w_yy), Q = D w_xxx, strain h/2 w_xx and stress 6M/h²."""
     radii = np.linspace(0.0, 2.0, 9)
     derivatives = np.zeros((4, 1, 1, 4, 9), dtype=complex)
     # Δₙ of r² and r³ of orders 0 and 1; of the others it is zero.
@@ -176,7 +184,7 @@ def test_moments_strain_and_stress_are_those_of_polynomials(
         polynomial = np.polynomial.Polynomial(coefficients)
         for number in range(3):
             derivatives[number, 0, 0, order] = (polynomial.deriv(number) if number else polynomial)(radii)
-    plate = RoundPlate(radius=2.0, flexural_rigidity=5.0, mass_per_area=1.0, poisson_ratio=0.0, thickness=0.1)
+    plate = RoundPlate(radius=2.0, flexural_rigidity=5.0, mass_per_area=1.0, poisson_ratio=poisson, thickness=0.1)
     sea = tank(
         length=9.0,
         gravity=9.81,
@@ -195,7 +203,7 @@ def test_moments_strain_and_stress_are_those_of_polynomials(
     assert found.largest_stress is not None
     # The phase of the largest strain is found to 1e-5, at which it differs by its square.
     assert found.largest_strain[0, 0] == pytest.approx(0.05 * curvature, rel=1e-8)
-    assert found.largest_stress[0, 0] == pytest.approx(6.0 * 5.0 * curvature / 0.1**2, rel=1e-8)
+    assert found.largest_stress[0, 0] == pytest.approx(6.0 * 5.0 * (1.0 - poisson) * curvature / 0.1**2, rel=1e-8)
 
 
 @pytest.mark.parametrize("inner", [0.0, 0.4])

@@ -11,10 +11,17 @@ from mpi4py import MPI
 from PIL import Image
 from scene_files import CIRCLE_IN_OPEN_WATER, read_written
 
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.requests import ResonanceRequest
+from hydroelastic.fem.open_water.resonance import solve_resonance
+from hydroelastic.fem.section_roll import SectionRoll, section_roll
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.roll.run import run_roll
 from hydroelastic.scenes.roll.solve import solve_roll
@@ -226,29 +233,34 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
     assert abs(result.solution.statistics.largest_angle) < 2e-6 * 0.1
 
 
-@pytest.mark.slow
-@pytest.mark.mpi
-def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
-    from hydroelastic.fem.open_water.requests import ResonanceRequest
-    from hydroelastic.fem.open_water.resonance import solve_resonance
-    from hydroelastic.fem.section_roll import section_roll
-    from hydroelastic.fem.stopwatch import Stopwatch
-    from hydroelastic.scenes.models.tank import TankScene
-    from hydroelastic.scenes.open_water.physics import open_water_problem
-
-    # A rectangle whose roll makes waves: damping by waves of a per cent.
+def rolling_rectangle(tolerance: float) -> tuple[OpenWaterProblem, SectionRoll]:
+    """A rectangle in open water, whose roll makes waves: damping by waves of a per cent."""
     scene = read_scene(
         "open_ship_section",
         [
             "body.1={kind='float', shape='rectangle', position=30.0, half_width=6.0, half_height=3.0, "
             "radius_of_gyration=4.0, centre_of_mass=0.5, motions=['roll']}",
-            "accuracy.tolerance=1e-3",
+            f"accuracy.tolerance={tolerance}",
         ],
     )
     assert isinstance(scene, TankScene)
-    comm = MPI.COMM_WORLD
-    problem = open_water_problem(scene, comm, Stopwatch())
-    found = section_roll(problem.tank, tolerance=problem.tolerance, modes=1, comm=comm)
+    problem = open_water_problem(scene, MPI.COMM_WORLD, Stopwatch())
+    return problem, section_roll(problem.tank, tolerance=tolerance, modes=1, comm=MPI.COMM_WORLD)
+
+
+def test_the_damping_of_a_section_is_that_of_the_equation_of_roll() -> None:
+    """(I + a) φ'' + bφ' + Cφ = 0 is φ'' + 2nφ' + k²φ = 0."""
+    _, found = rolling_rectangle(3e-2)
+    assert found.damping is not None
+    whole = found.inertia + found.added_inertia
+    assert 2.0 * found.damping * whole == pytest.approx(found.wave_damping, rel=1e-12)
+    assert found.natural_frequency**2 * whole == pytest.approx(found.stiffness, rel=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.mpi
+def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
+    problem, found = rolling_rectangle(1e-3)
     omega = solve_resonance(problem, ResonanceRequest(count=1)).table.omega[0]
     assert found.damping is not None
     ratio = found.damping / found.natural_frequency

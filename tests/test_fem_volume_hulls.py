@@ -27,7 +27,7 @@ from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.physics.level_tank import Box
 from hydroelastic.physics.solid_floats import RIGID_MOTIONS, SolidFloat
 from hydroelastic.physics.volume_tank import VolumeTank
-from hydroelastic.physics.wetted_hulls import Hydrostatics, hydrostatics_of_surface
+from hydroelastic.physics.wetted_hulls import Hydrostatics, Triangles, hydrostatics_of_surface
 
 AXES = (2.0, 0.8, 0.6)
 """Half axes of the ellipsoid, m, whose middle is at the still level."""
@@ -104,6 +104,24 @@ def hull_float(file: Path, middle: tuple[float, float], draught: float | None = 
         motions=RIGID_MOTIONS,
         hull=hull,
     )
+
+
+PYRAMID = Triangles(
+    points=np.array([[0.0, 0.0, 0.0], [3.0, -3.0, 3.0], [3.0, 3.0, 3.0], [-3.0, 3.0, 3.0], [-3.0, -3.0, 3.0]]),
+    corners=np.array([[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4], [1, 2, 3], [1, 3, 4]]),
+)
+"""It stands on its tip, with a base of 6 m at 3 m above it."""
+
+
+def test_triangles_are_cut_where_they_cross_the_level() -> None:
+    wetted = PYRAMID.below(1.0)
+    wetted.require_closed()
+    found = wetted.hydrostatics()
+    # A base of 2 m at a height of 1 m; rounding.
+    assert found.volume == pytest.approx(4.0 / 3.0, rel=1e-12)
+    assert found.buoyancy == pytest.approx(-0.25, rel=1e-12)
+    assert found.waterplane == pytest.approx(4.0, rel=1e-12)
+    assert found.second == pytest.approx((4.0 / 3.0, 4.0 / 3.0), rel=1e-12)
 
 
 BASIN = VolumeTank(plan=Box(length=10.0, width=6.0), depth=2.5, density=1000.0, gravity=9.81)

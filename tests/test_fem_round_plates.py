@@ -14,6 +14,10 @@ from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.bodies.round_plate import RoundShapes
 from hydroelastic.fem.open_water import plate_modes, spectrum
+from hydroelastic.fem.open_water.bent_plates import bent
+from hydroelastic.fem.open_water.field_model import Band
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
+from hydroelastic.fem.open_water.plate_comparison import plate_comparisons
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import (
     ImpulseResponseRequest,
@@ -27,6 +31,7 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.results import PlateDeflection, RoundDeflection
 from hydroelastic.fem.open_water.round_plates import along_diameter, with_largest
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.plate.line_modes import PlateLine, dry_modes
 from hydroelastic.physics.geometry import Geometry
@@ -153,6 +158,43 @@ def test_a_dry_membrane_vibrates_at_the_zeros_of_bessel_functions(order: int, ze
     modes = dry_modes(line, 14)
     assert modes.rigid == (order == 0)
     assert math.sqrt(modes.eigenvalues[modes.rigid] / 2.0) == pytest.approx(zero, rel=1e-8)
+
+
+def water_of(tolerance: float, **keys: Any) -> OpenWaterProblem:
+    """Deep water with one disc of radius 2."""
+    disc = {"kind": "plate", "outline": "disc", "radius": 2.0, "mass_per_area": 100.0}
+    scene = {"liquid": [{"density": 1000.0, "depth": math.inf}], "accuracy": {"tolerance": tolerance}}
+    scene["body"] = [disc | keys.pop("body")]
+    return open_water_problem(SeaScene.model_validate(scene | keys), MPI.COMM_WORLD, Stopwatch())
+
+
+def test_modes_of_a_plate_follow_from_all_forces_on_them() -> None:
+    """Those of the model too, by the same equations as further ones."""
+    omega = 3.0
+    held = {"at": [0.0, 0.0], "stiffness": [3e3, 0.0, 0.0], "damping": [2e3, 0.0, 0.0], "quadratic_damping": [4e3, 0.0, 0.0]}
+    body = {"flexural_rigidity": 1e4, "poisson_ratio": 0.3}
+    asked = {"kind": "response", "omega": [omega], "wave_amplitude": 0.1}
+    problem = water_of(1e-2, body=body, attachment=[held], analysis=[asked]).of_order(0)
+    band = Band(lowest=omega, highest=omega)
+    model = open_model(problem, band, first_resolution(problem.tank, problem.tolerance, band))
+    response = OpenSolver(model, Stopwatch()).response(omega, [0])
+    drag, paths = np.array([0.3]), model.outside.paths
+    damping = np.sqrt(response.squared) * (paths.T * drag) @ paths
+    motions = np.linalg.solve(response.equations.dynamic - 1j * damping, response.equations.forces[0])
+    modes = model.plate_modes[0]
+    modes.count, modes.own = 0, slice(0, 0)
+    found = bent(modes, response, motions[None], drag[None])[0, : len(motions)]
+    np.testing.assert_allclose(found, motions, rtol=0.0, atol=1e-9 * np.abs(motions).max())
+
+
+def test_rigid_discs_have_the_added_mass_of_their_limits() -> None:
+    """4/3 and 8/45 ρaⁿ beside ψ = 0, 8/3 and 4/15 beside a lid, of heave and pitch."""
+    water = water_of(1e-3, body={"rigid": True})
+    solution = solve_open_water(water, (RadiationRequest(omega=(0.0, math.inf)),))
+    rows = list(plate_comparisons(water.tank, solution))
+    assert len(rows) == 4
+    # The tolerance.
+    assert max(abs(row.difference) for row in rows) < 1e-3
 
 
 @pytest.mark.parametrize(

@@ -141,6 +141,24 @@ def test_quadratic_damping_dissipates_as_its_equivalent_linear_one(memory: Radia
     assert abs(bodies(memory).steady(waves)[0, 0]) > 1.1 * amplitude
 
 
+def test_drag_in_many_waves_is_damping_by_the_deviation_of_the_velocity(memory: RadiationMemory) -> None:
+    """√(8/π) βσ, σ² = ½ Σ |ωξ|²."""
+    quadratic = 0.5
+    waves = WaveForces(omega=np.array([0.9, 1.05, 1.7]), forces=np.array([[1.0 + 0.5j], [0.8], [0.3j]]))
+    found = bodies(memory, quadratic=quadratic).steady(waves)
+    deviation = np.sqrt(0.5 * np.sum(np.abs(waves.omega * found[:, 0]) ** 2))
+    linear = bodies(memory, damping=np.sqrt(8.0 / pi) * quadratic * deviation)
+    # The iteration for the damping ends at 1e-12.
+    np.testing.assert_allclose(found, linear.steady(waves), rtol=1e-10)
+
+
+def test_waves_grow_smoothly_to_their_height() -> None:
+    waves = WaveForces(omega=np.zeros(1), forces=np.array([[2.0 + 0.0j]]), ramp=6.0)
+    grown = [waves.at(time)[0] for time in (0.0, 2.0, 3.0, 4.0, 6.0, 9.0)]
+    # 1 − cos 0°, 60°, 90°, 120°, 180°.
+    assert grown == pytest.approx([0.0, 0.5, 1.0, 1.5, 2.0, 2.0], abs=1e-15)
+
+
 @pytest.mark.parametrize("amplitude", [2.0, pytest.param(0.05, marks=pytest.mark.slow)])
 def test_a_release_with_drag_is_that_of_an_independent_integration(memory: RadiationMemory, amplitude: float) -> None:
     """The force of the waves, K̂ξ̂′, is r′ of r″ + 2γr′ + ω₀²r = Cξ′: four states, integrated by another method."""

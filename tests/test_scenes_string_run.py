@@ -76,10 +76,12 @@ def test_the_criterion_of_oscillation() -> None:
     assert viscous["modes"][0]["decay"] * viscous["modes"][1]["decay"] == pytest.approx(3.76606738842**2, rel=1e-11)
     assert viscous["modes"][2]["omega"] == pytest.approx(8.64469611368, rel=1e-11)
     assert viscous["string"]["critical_resistance"] == pytest.approx(0.05 * 1.2024127788 * np.sqrt(9.81), rel=1e-9)
-    # Just below the critical resistance all oscillate, just above one does not.
-    critical = viscous["string"]["critical_resistance"]
+    # Just below the critical resistance all oscillate, just above one does not, with the mass of the liquid too.
+    carried = "string.added_mass=0.02"
+    critical = run_string(string_scene("string_smooth", carried)).summary["string"]["critical_resistance"]
     for factor, first in ((0.999999, 1), (1.000001, 2)):
-        summary = run_string(string_scene("string_smooth", f"string.resistance={factor * critical!r}")).summary
+        resistance = f"string.resistance={factor * critical!r}"
+        summary = run_string(string_scene("string_smooth", carried, resistance)).summary
         assert summary["string"]["first_oscillating_mode"] == first
 
 

@@ -171,7 +171,8 @@ def water_of(tolerance: float, **keys: Any) -> OpenWaterProblem:
 def test_modes_of_a_plate_follow_from_all_forces_on_them() -> None:
     """Those of the model too, by the same equations as further ones."""
     omega = 3.0
-    held = {"at": [0.0, 0.0], "stiffness": [3e3, 0.0, 0.0], "damping": [2e3, 0.0, 0.0], "quadratic_damping": [4e3, 0.0, 0.0]}
+    held = {"at": [0.0, 0.0], "stiffness": [3e3, 0.0, 0.0], "damping": [2e3, 0.0, 0.0]}
+    held["quadratic_damping"] = [4e3, 0.0, 0.0]
     body = {"flexural_rigidity": 1e4, "poisson_ratio": 0.3}
     asked = {"kind": "response", "omega": [omega], "wave_amplitude": 0.1}
     problem = water_of(1e-2, body=body, attachment=[held], analysis=[asked]).of_order(0)

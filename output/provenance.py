@@ -79,6 +79,17 @@ def memory_of_process() -> int:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
+def spent(summary: Summary, memory: str = "") -> str:
+    """Return seconds by stage and memory, the end of the line on the cost of a solution.
+
+    Args:
+        summary: the summary of a result.
+        memory: what is added about memory.
+    """
+    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary["timing"].items() if value >= 0.005)
+    return f"; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB{memory}."
+
+
 class Solved(Protocol):
     """Interface of the solution of any scene."""
 

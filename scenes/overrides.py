@@ -41,9 +41,9 @@ def changes_of(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[Change]
     if isinstance(overrides, Mapping):
         for key, value in overrides.items():
             new = plain(value)
-            yield Change(key=key, value=new, text=f"{key} = {shown_value(new) or '…'}", option="change")
+            yield Change(key=str(key), value=new, text=f"{key} = {shown_value(new) or '…'}", option="change")
         return
-    for text in overrides:
+    for text in (overrides,) if isinstance(overrides, str) else overrides:
         key, equals, value = text.partition("=")
         change = Change(key=key, value=None, text=text)
         if not equals or not all(name.strip() for name in key.split(".")):

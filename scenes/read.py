@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from hydroelastic.scenes import models
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write_line
@@ -122,11 +123,14 @@ def _proposed_scene(path: Path) -> str:
     return proposal(path.stem, names) or f"See the shipped scenes with `{PROGRAM} list`"
 
 
-def read_scene(path: str | Path, overrides: Iterable[str] | Mapping[str, Any] = ()) -> Scene:
+def read_scene(
+    scene: Scene | str | Path | Mapping[str, Any], overrides: Iterable[str] | Mapping[str, Any] = ()
+) -> Scene:
     """Read and validate a scene.
 
     Args:
-        path: a TOML file, or the bare name of a shipped scene such as ``aquarium``, or ``-`` for the standard input.
+        scene: a TOML file, or the bare name of a shipped scene such as ``aquarium``, or ``-`` for the standard input;
+            or a dictionary with the keys of a file; or a scene that is to be changed.
         overrides: replacements by dotted key, made before validation; entries are numbered from 1:
             ``{"body.1.start": 2.5, "accuracy.tolerance": 1e-8}``. On the command line they are texts ``key=value``
             with TOML values, ``body.1.start=2.5``, where an unquoted word is a text.
@@ -137,7 +141,7 @@ def read_scene(path: str | Path, overrides: Iterable[str] | Mapping[str, Any] = 
     Raises:
         SceneError: if the file, an override or a value is invalid; it lists all errors.
     """
-    return scene_source(path).scene(overrides)
+    return scene_source(scene).scene(overrides)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,23 +178,34 @@ class SceneSource:
         return _with_mesh_beside(scene, self.file) if self.file is not None and isinstance(scene, TankScene) else scene
 
 
-def scene_source(scene: Scene | str | Path) -> SceneSource:
+def scene_source(scene: Scene | str | Path | Mapping[str, Any]) -> SceneSource:
     """Return what a scene is made of.
 
     Args:
-        scene: a scene, the name of a shipped one, or a TOML file.
+        scene: a scene, the name of a shipped one, a TOML file, or a dictionary with the keys of a file.
 
     Raises:
-        SceneError: if the file cannot be read.
+        SceneError: if the file cannot be read, or it is none of these.
     """
     if isinstance(scene, str | Path):
         file = scene_path(scene)
         return SceneSource(document=_parse(file), file=file)
-    return SceneSource(document=_as_read(scene.model_dump()), file=None)
+    if not isinstance(scene, Mapping) and not is_scene(scene):
+        allowed = "a scene, the name of a shipped scene, a file, or a dictionary with the keys of a file"
+        raise SceneError(Problem(key="scene", value=repr(scene)[:60], wrong="it is not a scene", allowed=allowed))
+    return SceneSource(document=_as_read(dict(scene)), file=None)
+
+
+def is_scene(value: Any) -> bool:
+    """Return whether a value is a whole scene, which has a title, and not one of its tables."""
+    return isinstance(value, BaseModel) and "title" in type(value).model_fields
 
 
 def _as_read(value: Any) -> Any:
     """The values of a scene in the types that a file gives: lists in place of tuples, nothing in place of ``None``."""
+    if isinstance(value, BaseModel):
+        return _as_read(value.model_dump())
+    value = plain(value)
     if isinstance(value, dict):
         return {key: _as_read(entry) for key, entry in value.items() if entry is not None}
     return [_as_read(entry) for entry in value] if isinstance(value, list | tuple) else value

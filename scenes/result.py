@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, nan
@@ -23,7 +23,7 @@ from hydroelastic.output.sections import Section, printed_sections, read_markdow
 from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.read import Scene, read_scene
+from hydroelastic.scenes.read import Scene, is_scene, read_scene
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.words import proposal
@@ -125,7 +125,7 @@ class Result:
             raise SceneError(problem)
         return Image.open(io.BytesIO(self.pictures[shown]))
 
-    def save(self, folder: str | Path, *, images: PictureOptions | None = DEFAULT_PICTURES, page: bool = False) -> None:
+    def save(self, folder: str | Path, *, images: PictureOptions | None = DEFAULT_PICTURES, report: bool = False) -> None:
         """Write the result folder that the command run writes, whole or not at all (collective).
 
         What was asked and could not be drawn is a warning.
@@ -133,16 +133,19 @@ class Result:
         Args:
             folder: the folder; files of an earlier result are replaced, all else is kept.
             images: how to draw; ``None`` draws nothing.
-            page: whether to write ``report.html`` too.
+            report: whether to write ``report.html`` too.
 
         Raises:
             SceneError: if the folder cannot be written, or the solution is no longer there.
         """
+        if images is not None and not isinstance(images, PictureOptions):
+            allowed = 'he.PictureOptions(…), for example he.PictureOptions(formats=("svg",)), or None for no pictures'
+            raise SceneError(Problem(key="images", value=repr(images), wrong="it is no option", allowed=allowed))
         if self.outcome is None or self.scene is None:
             remedy = "Solve the scene again, and save or draw that result"
             raise SceneError(Problem(key="result", wrong="it was pickled or read, without its solution", remedy=remedy))
         written = runner_of(self.scene).written(
-            self.outcome, Path(folder), images=images, page=page_writer(self.scene) if page else None
+            self.outcome, Path(folder), images=images, page=page_writer(self.scene) if report else None
         )
         for warning in written.warnings:
             warnings.warn(warning, stacklevel=2)
@@ -160,17 +163,17 @@ class Result:
             return MPI.COMM_WORLD.bcast(found)
 
 
-def solve(scene: Scene | str | Path) -> Result:
+def solve(scene: Scene | str | Path | Mapping[str, Any]) -> Result:
     """Solve a scene; prints and writes nothing (collective).
 
     Args:
-        scene: the scene, or the name or file of one.
+        scene: the scene, or what `read` takes: the name or file of one, or a dictionary with the keys of a file.
 
     Raises:
         SceneError: if the scene, or a file that it names, cannot be used.
         UnsolvedError: if the scene cannot be solved.
     """
-    given = read_scene(scene) if isinstance(scene, str | Path) else scene
+    given: Any = scene if is_scene(scene) else read_scene(scene)
     outcome = runner_of(given).solved(given)
     summary = json_ready(outcome.summary)
     return Result(scene=given, summary=summary, sections=outcome.sections, cost=outcome.cost, outcome=outcome)

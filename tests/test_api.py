@@ -48,7 +48,7 @@ def solved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     name, changes, _ = SCENES[request.param]
     result = he.solve(he.read(name, changes))
     folder = tmp_path_factory.mktemp("saved") / "result"
-    result.save(folder, page=True)
+    result.save(folder, report=True)
     return request.param, result, folder
 
 
@@ -201,6 +201,21 @@ def test_scenes_are_made_of_dictionaries_lists_and_arrays() -> None:
     assert parts == read
 
 
+def test_a_dictionary_with_the_keys_of_a_file_is_read_as_the_file() -> None:
+    file = ROOT / "scenes/cross_waves.toml"
+    read = he.read(file)
+    document = tomllib.loads(file.read_text(encoding="utf-8"))
+    made = he.read({**document, "liquid": [he.Liquid(**document["liquid"][0])]})
+    assert made.model_dump() == read.model_dump()
+    wider = he.read(made, {"tank.width": np.float64(30.0)})
+    assert wider.model_dump() == he.read(file, {"tank.width": 30.0}).model_dump() != read.model_dump()
+
+
+def test_scenes_are_made_of_keywords_alone() -> None:
+    with pytest.raises(TypeError, match="Tank takes keywords alone: length, gravity, ends, top"):
+        he.Tank(10.0)  # type: ignore[misc]
+
+
 @pytest.mark.parametrize(
     ("make", "said"),
     [
@@ -224,6 +239,14 @@ def test_scenes_are_made_of_dictionaries_lists_and_arrays() -> None:
             lambda: he.read("aquarium", {"tank.length": "long"}),
             'change tank.length = "long": [tank], key "length" = "long"',
         ),
+        (lambda: he.solve(he.Tank(length=1.0)), "scene = Tank(length=1.0, gravity=9.81, ends='walls', top='free'): it"),
+        (lambda: he.read(None), "scene = None: it is not a scene. Allowed: a scene, the name of a shipped scene"),
+        (
+            lambda: he.TankScene(tank={"length": 5.0, "width": 2.0}, liquid=[{"density": 1e3, "depth": 5.0}]),
+            'this is a tank in three dimensions, and a TankScene is per metre of width. Make it with he.read({"kind"',
+        ),
+        (lambda: he.sweep("aquarium", ["body.1.start"]), "vary = ['body.1.start']: it is not a dictionary"),
+        (lambda: he.solve("swell").save("swell", images="png"), "images = 'png': it is no option. Allowed: he.Pic"),
         (
             lambda: he.load("nowhere"),
             "result folder nowhere: it cannot be read (No such file or directory). Name a folder",
@@ -266,7 +289,7 @@ def test_imports_come_when_they_are_needed() -> None:
 
 
 def test_names_are_listed_and_others_are_not_there() -> None:
-    assert set(he.__all__) <= set(dir(he))
+    assert set(he.__all__) == {name for name in dir(he) if not name.startswith("_")}
     assert all(getattr(he, name) for name in he.__all__)
     with pytest.raises(AttributeError, match="module 'hydroelastic' has no attribute 'slove'"):
         he.slove  # noqa: B018

@@ -114,7 +114,7 @@ def listed_tones(
     """Return the first elastic tones that are among the modes that were solved; see `class_tones`."""
     return [
         _listed(found, errors, number, place, tone)
-        or replace(tone, reason="it may lie above the modes that were solved; more modes show it")
+        or replace(tone, reason="it may lie above the modes that were solved; ask for more modes")
         for number, place, tone in _dry_tones(tank, found)
     ]
 

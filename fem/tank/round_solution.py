@@ -168,7 +168,9 @@ def round_solution(
     return LevelSolution(
         physical=tank,
         tank=scaled,
-        model=f"order by order in the {'half-plane of revolution' if geometry.is_revolved else 'section'}",
+        model="one problem in the half-plane of revolution for each order n of cos nθ"
+        if geometry.is_revolved
+        else "one problem in the section for each order n of cos nπy/B",
         tolerance=tolerance,
         count=modes,
         modes=tuple(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.output.level_tank.quantities import ESTIMATES, EXACT, FIRST_ELASTIC, MODES
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantity_tables import headings, labelled_columns, listed
 from hydroelastic.output.sections import Section
 
@@ -64,11 +64,7 @@ def _modes(summary: Summary) -> Section:
 def level_tank_cost(summary: Summary) -> str:
     """Return size and cost of the solution."""
     size = summary["size"]
-    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
     mebibytes = size["memory_of_a_process"] / 2**20
     largest = f", at most {mebibytes:.0f} of one of {size['processes']} processes" if size["processes"] > 1 else ""
     problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
-    return (
-        f"{problems}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
-        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB{largest}."
-    )
+    return f"{problems}, degree {size['degree']}, {size['dofs']} unknowns{spent(summary, largest)}"

@@ -30,7 +30,7 @@ from hydroelastic.output.open_water.quantities import (
 )
 from hydroelastic.output.open_water.shown_rows import MOST_ROWS, largest, shown_rows
 from hydroelastic.output.open_water.time_tables import sections_over_time
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.output.whole_units import of_whole_solids
@@ -85,6 +85,7 @@ def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Itera
         )
     rows = summary["estimates"]["round_body"]["rows"]
     if rows:
+        of_surge = "Of surge the largest difference of all frequencies is shown, as a part of the largest value."
         yield Section(
             title="Closed forms and older estimates beside the field solution",
             headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
@@ -92,7 +93,7 @@ def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Itera
                 (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
                 for row in rows
             ],
-            lines=("Of surge the largest difference of all frequencies, in parts of the largest value.",),
+            lines=(of_surge,) if any(" of surge " in row["quantity"] for row in rows) else (),
             compares=True,
         )
     if infinite is not None:
@@ -121,11 +122,7 @@ def infinite_draught_message(infinite: InfiniteDraughtFloat) -> str:
 def open_cost(summary: Summary) -> str:
     """Size and cost of the solution."""
     size = summary["size"]
-    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary["timing"].items() if value >= 0.005)
-    return (
-        f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
-        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
-    )
+    return f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns{spent(summary)}"
 
 
 def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:

@@ -21,7 +21,10 @@ from hydroelastic.output.whole_units import of_whole_solids
 
 _GROUPS = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
 
-COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
+COMMENT = (
+    "exp(-i omega t); sections per metre of width, solids and plates of revolution whole; "
+    "x along the waves, heave upwards, roll anticlockwise"
+)
 """Signs and units of all arrays."""
 
 

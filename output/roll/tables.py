@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import degrees
 
 from hydroelastic.output.digits import counted
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantity_tables import columns, headings, listed
 from hydroelastic.output.roll.quantities import EXCEEDANCES, FREE_DECAY, LINEAR_UP_TO, RESPONSE, SECTION, SHIP
 from hydroelastic.output.sections import Section
@@ -68,7 +68,4 @@ def _exceedances(response: Summary) -> Section:
 
 def roll_cost(summary: Summary) -> str:
     """Return a line about size and time of the solution."""
-    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
-    return (
-        f"{summary['size']['times']} times; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
-    )
+    return f"{summary['size']['times']} times{spent(summary)}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydroelastic.output.digits import number
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantity_tables import columns, headings, listed
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.output.string.quantities import MODES, RESPONSE
@@ -41,9 +41,12 @@ def _response(summary: Summary) -> Section:
     if summary["steady"] is not None:
         rows += _steady(summary["steady"])
     beside = response["beside_fronts"]
+    error = f"the error is up to {beside['absolute_error']:.1e} m"
+    if beside["absolute_error"] > abs(response["largest_displacement"]):
+        error = "the motion is not resolved"
     line = (
         f"{beside['points']} values lie within {100 * beside['within']:g} % of R from a wave front, where the motion "
-        f"or a derivative of it jumps; there the error is up to {beside['absolute_error']:.1e} m."
+        f"or a derivative of it jumps; there {error}."
     )
     how = "by series" if summary["method"] == "series" else "field solution"
     return Section(
@@ -75,5 +78,4 @@ def string_cost(summary: Summary) -> str:
         if "terms" in size
         else f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns, {size['steps']} steps"
     )
-    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
-    return f"{what}; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+    return f"{what}{spent(summary)}"

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from hydroelastic.output.digits import counted, with_certain_digits
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantity_tables import headings, labelled_columns
 from hydroelastic.output.sections import Section
 from hydroelastic.output.tank.quantities import (
@@ -195,13 +195,11 @@ def _notes(estimates: Summary) -> tuple[str, ...]:
 
 def tank_cost(summary: Summary) -> str:
     """Return size and cost of the solution."""
-    size, timing = summary["size"], summary["timing"]
-    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in timing.items() if value >= 0.005)
+    size = summary["size"]
     where = " in half the tank, symmetric and antisymmetric" if size["halves"] else ""
     return (
         f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns "
-        f"({size['surface_unknowns']} on the surface){where}; seconds: {seconds}; "
-        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+        f"({size['surface_unknowns']} on the surface){where}{spent(summary)}"
     )
 
 

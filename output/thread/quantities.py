@@ -149,13 +149,13 @@ MODES = Group("modes", "free motions e^{λt} about the equilibrium, by analysis"
 ), record=lambda it: [_ModesInSpace(modes=modes, frame=it.frame) for modes in it.modes], dimension="modes_analysis")
 THRESHOLDS = Group("thresholds", "thresholds of stability", (
     Quantity("kind", "kind", note='`"divergence"`, K is singular, or `"flutter"`'),
-    Quantity("factor", "factor of the stream", "1", "stream times", error="relative_error", digits=12),
+    Quantity("factor", "factor of the stream", "1", error="relative_error", digits=12),
     Quantity("omega", "angular frequency at the threshold", "rad/s", "ω"),
     Quantity("growing_below", "number of growing motions below", "1", short="growing below"),
     Quantity("growing_above", "number of growing motions above", "1", short="growing above"),
     Quantity("relative_error", "estimated relative error of the factor", "1", short="relative error", shown=".1e"),
 ), dimension="threshold", prefix="threshold")
-STABILITY = Group("stability", "stability in the stream times factors, by analysis", (
+STABILITY = Group("stability", "stability in the stream multiplied by factors, by analysis", (
     Quantity("factors", "factors of the stream", "1", dimensions=("factor",), variable=""),
     Quantity("growing", "number of growing motions at each factor", "1", dimensions=("factor",), variable=""),
     THRESHOLDS,

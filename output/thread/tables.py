@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydroelastic.output.digits import counted, number
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import Summary, spent
 from hydroelastic.output.quantity_tables import columns, headings, listed
 from hydroelastic.output.sections import Section
 from hydroelastic.output.thread.quantities import EQUILIBRIUM, MODES, MOTION, THRESHOLDS
@@ -118,5 +118,4 @@ def thread_cost(summary: Summary) -> str:
     size = summary["size"]
     steps = f", {size['steps']} steps in time" if "steps" in size else ""
     what = f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns{steps}"
-    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
-    return f"{what}; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+    return f"{what}{spent(summary)}"

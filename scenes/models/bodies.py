@@ -51,7 +51,9 @@ class _Keyworded(ModelMetaclass):
 
     if not TYPE_CHECKING:  # where the keywords are those of each model
 
-        def __call__(cls, /, **keys: Any) -> Any:  # noqa: N805
+        def __call__(cls, /, *values: Any, **keys: Any) -> Any:  # noqa: N805
+            if values:
+                raise TypeError(f"{cls.__name__} takes keywords alone: {', '.join(cls.model_fields)}")
             try:
                 return super().__call__(**plain(keys))
             except ValidationError as error:

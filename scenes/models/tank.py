@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -13,9 +13,10 @@ from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
-from hydroelastic.scenes.models.problems import require_fit
+from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies, closed_tanks_have_springs_alone
 from hydroelastic.scenes.models.tank_checks import STAGES
+from hydroelastic.scenes.models.tank_kinds import is_level_tank
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, MeshFile, Tank, TankParts
 from hydroelastic.scenes.models.title import Title
 
@@ -47,6 +48,14 @@ class TankScene(TankParts):
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
     export: Export | None = Field(default=None, description="files for other programs, of open water")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_per_metre_of_width(cls, keys: Any) -> Any:
+        if isinstance(keys, dict) and is_level_tank(keys):
+            remedy = 'Make it with he.read({"kind": "tank", …}), of the same keys'
+            raise problem("this is a tank in three dimensions, and a TankScene is per metre of width", remedy=remedy)
+        return keys
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:

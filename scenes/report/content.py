@@ -52,7 +52,7 @@ def _parts(scene: Scene, outcome: Outcome, images: Path) -> Iterator[Part]:
         sections=tuple(section for section in outcome.sections if not section.compares),
     )
     if not isinstance(compared, str):
-        yield Part(anchor="comparison", title="Beside estimates and closed forms", sections=compared)
+        yield Part(anchor="comparison", title="Comparison with estimates and closed forms", sections=compared)
     further = tuple(picture for picture in shown if picture not in first)
     if further or left_out:
         yield _pictures(further, left_out)

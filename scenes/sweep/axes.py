@@ -18,6 +18,7 @@ MOST_POINTS = 100_000
 """Of one sweep."""
 
 _EXAMPLE = "For example --vary body.1.start=0:6:25 or --vary liquid.1.depth=0.5,1,2"
+_EXAMPLE_IN_PYTHON = 'For example {"body.1.start": [0.0, 3.0, 6.0]}'
 # Decimal digits of the values of a range, so that the middle between 0 and 6 is 3.
 _DIGITS = 13
 
@@ -93,12 +94,16 @@ def grid_from_values(vary: Vary) -> Grid:
     Raises:
         SceneError: if a list is empty or the grid cannot be swept.
     """
+    if not isinstance(vary, Mapping):
+        wrong = "it is not a dictionary of values by key"
+        raise SceneError(Problem(key="vary", value=repr(vary)[:60], wrong=wrong, remedy=_EXAMPLE_IN_PYTHON))
     axes = []
     for key, values in vary.items():
-        entries = [values] if isinstance(values, str) else list(plain(values) if hasattr(values, "tolist") else values)
+        given = plain(values)
+        entries = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
         if not entries:
-            raise SceneError(_refused(key, "there is no value"))
-        axes.append(Axis(key=key, values=tuple(map(plain, entries))))
+            raise SceneError(_refused(key, "there is no value", _EXAMPLE_IN_PYTHON))
+        axes.append(Axis(key=str(key), values=tuple(map(plain, entries))))
     return Grid(axes=tuple(axes))
 
 

@@ -41,6 +41,7 @@ from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import (
     VolumeErrors,
     VolumeResolution,
+    next_resolution,
     resolution_of,
     volume_resolution,
     with_refinements,
@@ -241,7 +242,8 @@ def _solve(
 
 def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeResolution | None:
     """The next resolution, ``None`` where there is none; the factors of the last one are given back (collective)."""
-    finer = solution.model.resolution.refined(solution.errors.first(count), tolerance)
+    model = solution.model
+    finer = next_resolution(model.resolution, solution.errors.first(count), model.tank, tolerance, count, model.mirrors)
     if finer is not None:
         for one in solution.modes.classes:
             if isinstance(one.pencil.solver, LiquidSolver):

@@ -213,7 +213,7 @@ def volume_resolution(
     """
     if severity is None:
         mild, usual = (volume_resolution(tank, tolerance, count, mirrors, severity=one) for one in (_MILD, 1.0))
-        few, many = (_expected_unknowns(tank, one, mirrors) for one in (mild, usual))
+        few, many = (expected_unknowns(tank, one, mirrors) for one in (mild, usual))
         return mild if mild.foreseen and (many > _MUCH_LARGER * few or not usual.foreseen) else usual
     is_of_mesh = _is_of_mesh(tank)
     if not is_of_mesh and (tank.plates or tank.floats or tank.baffles or _has_corners(tank)):
@@ -222,7 +222,7 @@ def volume_resolution(
             return layered
     first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count, severity)
     second = _of_degree(2, tank, tolerance, count, severity)
-    many, few = (_expected_unknowns(tank, one, mirrors) for one in (first, second))
+    many, few = (expected_unknowns(tank, one, mirrors) for one in (first, second))
     takes_second = not (tank.baffles or tank.interface or is_of_mesh)
     return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
 
@@ -235,10 +235,12 @@ def _layered(
     found = []
     for degree in (_DEGREE, _FINE_DEGREE):
         one = _of_degree(degree, tank, tolerance, count, severity, layered=True)
-        unknowns = _expected_unknowns(tank, one, mirrors)
+        unknowns = expected_unknowns(tank, one, mirrors)
         if unknowns <= DIRECT_UNKNOWNS:
-            found.append((unknowns if one.sizes.edge > _LEAST_EDGE else 1.0 / degree + DIRECT_UNKNOWNS, one))
-    return min(found, key=lambda pair: pair[0])[1] if found else None
+            # Seconds of an unknown grow with the degree: of 6 over 4 by 1.1 on straight cells, 1.7 on curved ones.
+            is_coarse = one.sizes.edge <= _LEAST_EDGE
+            found.append((is_coarse, -degree if is_coarse else degree * unknowns, one))
+    return min(found, key=lambda entry: entry[:2])[2] if found else None
 
 
 def next_resolution(
@@ -315,7 +317,8 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
 
 
-def _expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:
+def expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:
+    """Return about the number of unknowns of ψ between planes of symmetry, without a mesh; measured within 1.7."""
     return resolution.degree**3 / 6.0 * expected_cells(tank, resolution.sizes, mirrors)
 
 

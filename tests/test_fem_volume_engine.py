@@ -198,7 +198,7 @@ def test_too_little_memory_is_said_before_cells_are_divided(monkeypatch: pytest.
     )
     monkeypatch.setattr(volume_solve, "free_memory", lambda: 1e8)
     monkeypatch.setattr(distribution, "refined_mesh", None)
-    with pytest.raises(volume_solve.TooLargeError, match="0.1 GiB are free"):
+    with pytest.raises(volume_solve.TooLargeError, match=r"0\.1 GiB are free"):
         solve_volume(tank.scaled(), tolerance=1e-7, count=400)
 
 

@@ -15,7 +15,8 @@ from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.meshes.volume_file import lies_in_plane
+from hydroelastic.meshes.triangle_crossings import crossing_place
+from hydroelastic.meshes.volume_file import lies_in_plane, solids_in
 from hydroelastic.physics.wetted_hulls import (
     Hydrostatics,
     OpenSurfaceError,
@@ -49,7 +50,7 @@ def wetted_hull(file: Path, *, draught: float | None = None, volume: float | Non
         volume: that it displaces, m³; with neither its z = 0 is the still level.
 
     Raises:
-        MeshError: if it cannot be read, is not closed, or does not displace such a volume.
+        MeshError: if it cannot be read, is not closed or crosses itself, or does not displace such a volume.
     """
     return _wetted_hull(file, draught, volume, file.stat().st_mtime_ns)
 
@@ -61,8 +62,17 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
     if volume is not None:
         level = _level_of(file, volume, low, high)
     if not low < level <= high + 1e-9 * (high - low):
-        raise MeshError(f"the still level, z = {level:g} m of {file}, is not between its lowest and highest point")
+        raise MeshError(
+            f"the still level, z = {level:g} m of {file}, is not between its lowest and highest point, z = {low:g} m "
+            f"and {high:g} m; its lengths are taken in metres"
+        )
     found, corners = hydrostatics_at(file, level)
+    if file.suffix.lower() == ".stl":
+        crossing = crossing_place(wetted_triangles(file, level))
+        if crossing is not None:
+            x, y, z = crossing
+            where = f"near x = {x:.4g}, y = {y:.4g} m, {-z:.4g} m below the level"
+            raise MeshError(f"the surface in {file} crosses itself {where}: join its parts to one surface")
     least, most = ((float(place[0]), float(place[1]), float(place[2])) for place in corners)
     return WettedHull(
         file=file,
@@ -96,13 +106,18 @@ def _level_of(file: Path, volume: float, low: float, high: float) -> float:
     """The level below which a hull has a volume, by Newton's method: the waterplane is the slope of the volume."""
     level = 0.5 * (low + high)
     for _ in range(_MOST_STEPS):
+        if not low + _LEVEL * (high - low) < level < high - _LEVEL * (high - low):
+            break
         found, _ = hydrostatics_at(file, level)
         step = (volume - found.volume) / found.waterplane
         least, most = low + 0.1 * (level - low), high - 0.1 * (high - level)
         level = min(max(level + step, least), most)
         if abs(step) < _LEVEL * (high - low):
             return level
-    raise MeshError(f"{file} displaces {volume:g} m³ at no level between its lowest and highest point")
+    raise MeshError(
+        f"{file} displaces {volume:g} m³ at no level between its lowest and highest point, z = {low:g} m and "
+        f"{high:g} m; its lengths are taken in metres"
+    )
 
 
 def extent(file: Path) -> tuple[float, float]:
@@ -186,12 +201,7 @@ def hull_solid(file: Path, metres: float) -> _Entities:
     Raises:
         MeshError: if there is not one.
     """
-    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
-    gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
-    try:
-        solids = [one for one in gmsh.model.occ.importShapes(str(file)) if one[0] == 3]
-    finally:
-        gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
+    solids = solids_in(file, metres)
     if len(solids) != 1:
         raise MeshError(f"{file} holds {len(solids)} solids; a hull is one")
     return solids

@@ -73,6 +73,22 @@ def lies_in_plane(tag: int, axis: int, level: float) -> bool:
     )
 
 
+def solids_in(file: Path, metres: float) -> _Entities:
+    """Read the solids of a file into the current model, in a unit of length.
+
+    Raises:
+        MeshError: if it cannot be read.
+    """
+    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
+    try:
+        return [one for one in gmsh.model.occ.importShapes(str(file)) if one[0] == 3]
+    except Exception as error:  # gmsh raises bare Exception
+        raise MeshError(f"{file} cannot be read as a file of CAD") from error
+    finally:
+        gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
+
+
 def solid_of_file(plan: FilePlan) -> _Entities:
     """Read a solid into the current model, fill it and move its still surface to z = 0.
 
@@ -80,13 +96,8 @@ def solid_of_file(plan: FilePlan) -> _Entities:
         MeshError: if the file does not hold one solid, or the liquid falls into several.
     """
     occ = gmsh.model.occ
-    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     # Unlike a later dilation this keeps cones cones.
-    gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / plan.metres)
-    try:
-        solids = [one for one in occ.importShapes(str(plan.file)) if one[0] == 3]
-    finally:
-        gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
+    solids = solids_in(plan.file, plan.metres)
     if len(solids) != 1:
         raise MeshError(f"{plan.file} holds {len(solids)} solids; the inside of the tank is one")
     left, front, low, right, back, high = occ.getBoundingBox(*solids[0])

@@ -176,7 +176,7 @@ class Triangles:
             OpenSurfaceError: with a place where it is open, or triangles are turned the other way.
         """
         if not len(self.corners):
-            raise OpenSurfaceError("nothing of it is below the still level")
+            raise OpenSurfaceError("does not reach below the still level")
         sides = np.stack([self.corners, np.roll(self.corners, -1, axis=1)], axis=2).reshape(-1, 2)
         edges, number, counts = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
         turned = np.bincount(number.ravel(), weights=np.where(sides[:, 0] < sides[:, 1], 1.0, -1.0))

@@ -21,6 +21,7 @@ from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.classes import merged_errors, no_mode_is_beyond, solve_classes
 from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.fem.shape_loads import surface_load
+from hydroelastic.fem.volume import distribution
 from hydroelastic.fem.volume import solve as volume_solve
 from hydroelastic.fem.volume.cubic_errors import cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
@@ -188,6 +189,17 @@ def test_unknowns_told_in_advance_are_those_of_the_space() -> None:
         resolution = VolumeResolution(degree=degree, sizes=sizes, polynomials=(4,))
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=(None, None))
         assert unknown_count(volume_mesh(tank, sizes).noded, degree) == model.liquid.size
+
+
+@pytest.mark.mpi
+def test_too_little_memory_is_said_before_cells_are_divided(monkeypatch: pytest.MonkeyPatch) -> None:
+    tank = VolumeTank(
+        plan=Box(length=40.0, width=30.0), depth=1.0, density=1.0, gravity=1.0, bed=SlopingBed(slope=(0.01, 0.0))
+    )
+    monkeypatch.setattr(volume_solve, "free_memory", lambda: 1e8)
+    monkeypatch.setattr(distribution, "refined_mesh", None)
+    with pytest.raises(volume_solve.TooLargeError, match=r"0\.1 GiB are free"):
+        solve_volume(tank.scaled(), tolerance=1e-7, count=400)
 
 
 def test_iterations_of_multigrid_hardly_grow_with_the_unknowns() -> None:

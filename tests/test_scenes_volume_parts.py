@@ -232,6 +232,35 @@ def test_a_hull_with_a_hole_is_refused_with_file_and_place(tmp_path: Path) -> No
         read_scene(tmp_path / "scow.toml")
 
 
+def test_a_hull_that_crosses_itself_is_refused_with_the_place(tmp_path: Path) -> None:
+    """Each of two scows is closed; gmsh would end in the middle of the mesh."""
+    import hydroelastic.scenes.read as reading
+
+    folder = reading.SHIPPED_FOLDER
+    hull = (folder / "scow.stl").read_text(encoding="ascii")
+    scene = (folder / f"{SCOW}.toml").read_text(encoding="utf-8").replace("mass = 2500.0", "draught = 0.4")
+    (tmp_path / "scow.toml").write_text(scene, encoding="utf-8")
+    for shift, crosses in ((0.3, True), (1.7, False)):
+        moved = "\n".join(
+            f"vertex {x} {float(y) + shift} {z}" if word == "vertex" else line
+            for line in hull.splitlines()
+            for word, x, y, z in [(*line.split(), "", "", "")[:4] if "vertex" in line else ("", "", "", "")]
+        )
+        (tmp_path / "scow.stl").write_text(hull + moved, encoding="ascii")
+        if crosses:
+            with pytest.raises(SceneError, match=r"(?s)scow.stl crosses itself near x = "):
+                read_scene(tmp_path / "scow.toml")
+        else:
+            assert isinstance(read_scene(tmp_path / "scow.toml"), LevelTankScene)
+
+
+def test_a_bed_that_is_too_rough_is_an_error_of_the_scene() -> None:
+    points = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 6.0, 0.0], [10.0, 6.0, 0.0], [5.0, 3.0, 1.5], [5.5, 3.0, 0.0]]
+    given = {"tank": {"length": 10.0, "width": 6.0, "bed": {"points": points}}, "liquid": [WATER]}
+    with pytest.raises(SceneError, match="bed through the points is too steep"):
+        list(check_level_tank(LevelTankScene(**given)))
+
+
 def test_a_volume_of_too_many_cells_is_told_before_it_is_meshed() -> None:
     """Two liquids 2.6 m deep in a tank 9 km wide: gmsh alone makes a mesh that is cut at an interface."""
     two = ({"density": 1000.0, "depth": 2.5}, {"density": 800.0, "depth": 0.1})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import refined_mesh
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integral, mesh_volume, smallest_jacobians
 from hydroelastic.meshes.volume import VolumeSizes, depth_over, volume_mesh
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
@@ -27,9 +28,21 @@ _GEOMETRY = 2.0
 
 
 def distributed_volume(
-    tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors, comm: MPI.Comm
+    tank: VolumeTank,
+    sizes: VolumeSizes,
+    mirrors: Mirrors,
+    comm: MPI.Comm,
+    require: Callable[[NodedMesh, int], None] = lambda _mesh, _refinements: None,
 ) -> tuple[TankMesh, float]:
     """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls (collective).
+
+    Args:
+        tank: the tank.
+        sizes: of the cells.
+        mirrors: x and y of planes of symmetry.
+        comm: the processes.
+        require: is called on the first process with the mesh of gmsh and how often it will be refined, and may refuse
+            it by a MeshError.
 
     Raises:
         MeshError: if the volume cannot be meshed.
@@ -38,6 +51,7 @@ def distributed_volume(
     if comm.rank == 0:
         try:
             made = unfolded_volume(tank, sizes, mirrors)
+            require(made.noded, sizes.refinements if made.surfaces else 0)
         except MeshError as error:
             made = error
     if comm.bcast(isinstance(made, MeshError)):
@@ -55,7 +69,7 @@ def distributed_volume(
         except FoldedError:
             if sizes.coarse.around > _MOST_COARSE:
                 raise
-            return distributed_volume(tank, replace(sizes, around=2 * sizes.around), mirrors, comm)
+            return distributed_volume(tank, replace(sizes, around=2 * sizes.around), mirrors, comm, require)
     return mesh, _GEOMETRY * abs(meshed / volume - 1.0)
 
 
@@ -64,8 +78,13 @@ def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> V
     for more in range(1, _MOST_AROUND + 1):
         try:
             return volume_mesh(tank, replace(sizes, around=more * sizes.around), mirrors)
-        except FoldedError:
+        except FoldedError as error:
             if more == _MOST_AROUND:
+                if isinstance(tank.bed, SurveyedBed):
+                    raise MisplacedError(
+                        "the smooth bed through the points is too steep between them, or rises to the still level: "
+                        "cells over it are inverted"
+                    ) from error
                 raise
     raise AssertionError
 

@@ -56,6 +56,11 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
     return along, across
 
 
+def image_count(mirrors: Mirrors) -> int:
+    """Return the number of parts that planes of symmetry make."""
+    return 2 ** sum(mirror is not None for mirror in mirrors)
+
+
 def _is_in_plane(solid: SolidFloat, axis: int, middle: float) -> bool:
     """Whether a plane divides a float into halves that are alike."""
     alike = solid.hull is None or solid.hull.symmetric[axis]
@@ -106,7 +111,7 @@ class VolumeModel:
     @property
     def images(self) -> int:
         """Number of parts that are alike."""
-        return 2 ** sum(mirror is not None for mirror in self.mirrors)
+        return image_count(self.mirrors)
 
     @cached_property
     def liquid(self) -> LiquidSpace:

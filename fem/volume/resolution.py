@@ -13,6 +13,7 @@ from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
 from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
+from hydroelastic.meshes.edge_layers import LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.volume import CELLS_OF_A_CUBE, VolumeSizes
 from hydroelastic.physics.level_tank import FilePlan
@@ -24,22 +25,22 @@ LARGEST_MESH = 100_000
 
 _MOST_POLYNOMIALS = 30
 _DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
-# The higher degree pays from larger errors on where cells at singular edges are in layers; measured on plates.
-_FINE_LAYERED = 3e-6
 # Largest and smallest cells, in units of the tank.
 _LARGEST, _SMALLEST = 0.35, 5e-4
-# Relative error of ω by waves over (kh)^2p, of tetrahedra of size h and degree p: of degree 2, and of higher ones. By
-# edges over a power of h, and by corners of floats over h^(4/3), as ψ ~ r^(2/3). Measured.
+# Of a first resolution, at edges.
+_LEAST_EDGE = 4.0 * _SMALLEST
+# Relative error of ω by waves over (kh)^2p, of tetrahedra of size h and degree p: of degree 2, and of higher ones.
+# Measured.
 _OF_WAVES = {2: 1e-3, 4: 1.2e-7}
-_OF_EDGES, _EDGE_ORDER = {2: 0.2, 4: 0.05}, {2: 1.5, 4: 2.0}
-_OF_CORNERS, _CORNER_ORDER = {2: 0.12, 4: 0.05}, 4.0 / 3.0
-# At the tips of baffles over h, as ψ ~ r^(1/2).
-_OF_TIPS = 0.02
-# Layers at edges of plates, corners and tips, and the errors and their orders with them; measured. More layers add
-# nothing: the error is in the first ones.
-_LAYERS_OF_EDGES, _LAYERS_OF_CORNERS, _LAYERS_OF_TIPS = 2, 3, 5
-_OF_LAYERED_EDGES, _LAYERED_EDGE_ORDER = {4: 3.5e-4, 6: 3e-5}, 1.2
-_OF_LAYERED_CORNERS, _OF_LAYERED_TIPS = {4: 6e-4, 6: 2e-4}, {4: 6e-4, 6: 2e-4}
+# Errors at singular edges over those by the measured constants, which are of plates without hydrostatic restoring, of
+# tips and of corners: least ones measured, of plates that follow the water.
+_MILD = 0.01
+# A first attempt for mild edges is made where one for others has so many times its unknowns.
+_MUCH_LARGER = 2.0
+# Part of the tolerance that the edges take where their error is known.
+_OF_KNOWN_EDGES = 0.7
+# Part of an error up to which it counts as the same.
+_LITTLE_MORE = 1.2
 # Cells that layers add to each cell along an edge, over n (n + 1); measured.
 _CELLS_OF_LAYERS = 10.0
 # Cells that grow from edges of plates with the size h there, over their length over h; measured.
@@ -49,6 +50,66 @@ _MOST_REFINEMENTS = 4
 _DEARER = 3.0
 # Largest and smallest ratio of successive sizes.
 _LEAST_STEP, _MOST_STEP = 0.85, 0.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Edges:
+    """Relative error of ω by singular edges of one kind, over powers of the size of cells there; measured.
+
+    More layers than the most add nothing, as the error is then in the first ones; fewer do at loose tolerances.
+
+    Attributes:
+        alone: of cells alike in all directions, by degree.
+        order: its power, by degree; each layer divides the error as cells of its width would.
+        layered: with layers, by degree.
+        layered_order: its power.
+        least, most: numbers of layers. The estimate for plates needs one.
+    """
+
+    alone: dict[int, float]
+    order: dict[int, float]
+    layered: dict[int, float]
+    layered_order: float
+    least: int
+    most: int
+
+    def error(self, degree: int, size: float, layers: int) -> float:
+        """With layers; 4 is the highest degree that ``alone`` tells."""
+        order = self.order[min(degree, 4)]
+        of_size = self.alone[min(degree, 4)] * (LAYER_RATIO**layers * size) ** order
+        return of_size + self.layered[degree] * size**self.layered_order
+
+    def layers(self, degree: int, size: float, error: float) -> int:
+        """Return how many leave little more than an error."""
+        numbers = range(self.least, self.most)
+        return next((some for some in numbers if self.error(degree, size, some) <= _LITTLE_MORE * error), self.most)
+
+
+# Edges of plates; corners of floats and columns, where ψ ~ r^(2/3); tips of baffles, where ψ ~ r^(1/2).
+_PLATES = _Edges(
+    alone={2: 0.2, 4: 0.05},
+    order={2: 1.5, 4: 2.0},
+    layered={4: 3.5e-4, 6: 3e-5},
+    layered_order=1.2,
+    least=1,
+    most=2,
+)
+_CORNERS = _Edges(
+    alone={2: 0.12, 4: 0.05},
+    order=dict.fromkeys((2, 4), 4.0 / 3.0),
+    layered={4: 6e-4, 6: 2e-4},
+    layered_order=4.0 / 3.0,
+    least=0,
+    most=3,
+)
+_TIPS = _Edges(
+    alone=dict.fromkeys((2, 4), 0.02),
+    order=dict.fromkeys((2, 4), 1.0),
+    layered={4: 6e-4, 6: 2e-4},
+    layered_order=1.0,
+    least=0,
+    most=5,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,12 +149,14 @@ class VolumeResolution:
         sizes: of the cells.
         order: of the error by cells at edges.
         polynomials: number of polynomials along each direction of each plate.
+        foreseen: error by edges of usual severity; 0 where that of these is known already.
     """
 
     degree: int
     sizes: VolumeSizes
     polynomials: tuple[int, ...]
     order: float = 2.0
+    foreseen: float = 0.0
 
     @property
     def coarser(self) -> VolumeResolution:
@@ -130,25 +193,76 @@ def _step(excess: float, order: float) -> float:
     return min(max(0.9 * excess ** (-1.0 / order), _MOST_STEP), _LEAST_STEP)
 
 
-def volume_resolution(tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors) -> VolumeResolution:
+def volume_resolution(
+    tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors, *, severity: float | None = None
+) -> VolumeResolution:
     """Return the first resolution for some modes of a dimensionless tank.
 
-    It has degree 4, and 6 for small errors, and layers at singular edges, which a factorization takes. Where these
-    would be too many unknowns for one, cells are alike in all directions; and where those of degree 2 then cost less,
-    because edges and not waves ask for small cells or the error may be large, it is degree 2. Baffles, an interface and
-    cells of a file keep the higher one.
+    It has layers at singular edges, which a factorization takes, and of degree 4 and 6 the one with fewer unknowns.
+    Where these would be too many for a factorization, cells are alike in all directions, of degree 4, and of 6 for
+    small errors; and where those of degree 2 then cost less, because edges and not waves ask for small cells or the
+    error may be large, it is degree 2. Baffles, an interface and cells of a file keep the higher one.
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error of the frequencies that is accepted.
+        count: number of modes.
+        mirrors: x and y of planes of symmetry.
+        severity: error at singular edges over that of the measured constants; by default it is not known, and a mild
+            one is assumed where that costs little beside what a usual one would: `next_resolution` then knows it.
     """
+    if severity is None:
+        mild, usual = (volume_resolution(tank, tolerance, count, mirrors, severity=one) for one in (_MILD, 1.0))
+        few, many = (expected_unknowns(tank, one, mirrors) for one in (mild, usual))
+        return mild if mild.foreseen and (many > _MUCH_LARGER * few or not usual.foreseen) else usual
     is_of_mesh = _is_of_mesh(tank)
     if not is_of_mesh and (tank.plates or tank.floats or tank.baffles or _has_corners(tank)):
-        for degree in (_FINE_DEGREE, _DEGREE) if tolerance < _FINE_LAYERED else (_DEGREE,):
-            layered = _of_degree(degree, tank, tolerance, count, layered=True)
-            if _expected_unknowns(tank, layered, mirrors) <= DIRECT_UNKNOWNS:
-                return layered
-    first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count)
-    second = _of_degree(2, tank, tolerance, count)
-    many, few = (_expected_unknowns(tank, one, mirrors) for one in (first, second))
+        layered = _layered(tank, tolerance, count, mirrors, severity)
+        if layered is not None:
+            return layered
+    first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count, severity)
+    second = _of_degree(2, tank, tolerance, count, severity)
+    many, few = (expected_unknowns(tank, one, mirrors) for one in (first, second))
     takes_second = not (tank.baffles or tank.interface or is_of_mesh)
     return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
+
+
+def _layered(
+    tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors, severity: float
+) -> VolumeResolution | None:
+    """The cheapest resolution with layers; where none keeps the tolerance, that of the higher degree; ``None`` where
+    they have too many unknowns for a factorization."""
+    found = []
+    for degree in (_DEGREE, _FINE_DEGREE):
+        one = _of_degree(degree, tank, tolerance, count, severity, layered=True)
+        unknowns = expected_unknowns(tank, one, mirrors)
+        if unknowns <= DIRECT_UNKNOWNS:
+            # Seconds of an unknown grow with the degree: of 6 over 4 by 1.1 on straight cells, 1.7 on curved ones.
+            is_coarse = one.sizes.edge <= _LEAST_EDGE
+            found.append((is_coarse, -degree if is_coarse else degree * unknowns, one))
+    return min(found, key=lambda entry: entry[:2])[2] if found else None
+
+
+def next_resolution(
+    last: VolumeResolution, errors: VolumeErrors, tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors
+) -> VolumeResolution | None:
+    """Return the resolution after one whose errors are known; ``None`` where it ends.
+
+    After a first one with layers the error that was found at edges decides their degree and size anew.
+    """
+    finer = last.refined(errors, tolerance)
+    if finer is None or not last.foreseen or finer.sizes.edge == last.sizes.edge:
+        return finer
+    severity = float(errors.edges.max()) / last.foreseen
+    rest = max(tolerance - float((errors.total - errors.edges).max()), 0.5 * tolerance)
+    planned = volume_resolution(
+        tank, tolerance, count, mirrors, severity=severity * 0.5 * tolerance / (_OF_KNOWN_EDGES * rest)
+    )
+    same = planned.degree == last.degree and planned.sizes.layers <= last.sizes.layers
+    if same and planned.sizes.edge > _LEAST_STEP * last.sizes.edge:
+        return finer
+    sizes = replace(planned.sizes, bulk=min(planned.sizes.bulk, finer.sizes.bulk), around=finer.sizes.around)
+    return replace(planned, sizes=sizes, polynomials=finer.polynomials, foreseen=0.0)
 
 
 def _has_corners(tank: VolumeTank) -> bool:
@@ -157,7 +271,7 @@ def _has_corners(tank: VolumeTank) -> bool:
 
 
 def _of_degree(
-    degree: int, tank: VolumeTank, tolerance: float, count: int, *, layered: bool = False
+    degree: int, tank: VolumeTank, tolerance: float, count: int, severity: float, *, layered: bool = False
 ) -> VolumeResolution:
     kind = min(degree, 4)
     eigenvalue = expected_eigenvalue(tank, count)
@@ -165,25 +279,22 @@ def _of_degree(
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     shortest = max(water_wavenumber(tank, eigenvalue), *wavenumbers, radians / _LARGEST)
     bulk = min(radians / shortest, 2.0 * tank.depth)
-    if tank.baffles:
-        order, part, layers = 1.0, _OF_LAYERED_TIPS[degree] if layered else _OF_TIPS, _LAYERS_OF_TIPS
-    elif _has_corners(tank):
-        order, layers = _CORNER_ORDER, _LAYERS_OF_CORNERS
-        part = _OF_LAYERED_CORNERS[degree] if layered else _OF_CORNERS[kind]
-    else:
-        order, layers = _LAYERED_EDGE_ORDER if layered else _EDGE_ORDER[kind], _LAYERS_OF_EDGES
-        part = _OF_LAYERED_EDGES[degree] if layered else _OF_EDGES[kind]
-    edge = (0.5 * tolerance / part) ** (1.0 / order)
+    edges = _TIPS if tank.baffles else _CORNERS if _has_corners(tank) else _PLATES
+    aim = 0.5 * tolerance / severity
+    part, order = (edges.layered[degree], edges.layered_order) if layered else (edges.alone[kind], edges.order[kind])
+    edge = min(max((aim / part) ** (1.0 / order), _LEAST_EDGE), bulk)
+    layers = edges.layers(degree, edge, aim) if layered else 0
     return VolumeResolution(
         degree=degree,
         order=order,
+        foreseen=edges.error(degree, edge, layers) if layered else 0.0,
         sizes=VolumeSizes(
-            edge=min(max(edge, 4.0 * _SMALLEST), bulk),
+            edge=edge,
             bulk=bulk,
             # Between nodes, curved cells would follow no plane triangle of a hull.
             geometry=1 if any(one.hull and one.hull.is_triangulated for one in tank.floats) else 4,
             around=16,
-            layers=layers if layered else 0,
+            layers=layers,
         ),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),
     )
@@ -206,7 +317,8 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
 
 
-def _expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:
+def expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:
+    """Return about the number of unknowns of ψ between planes of symmetry, without a mesh; measured within 1.7."""
     return resolution.degree**3 / 6.0 * expected_cells(tank, resolution.sizes, mirrors)
 
 

@@ -36,16 +36,19 @@ from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.eigenmodes import volume_modes
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
-from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
+from hydroelastic.fem.volume.model import VolumeModel, image_count, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import (
     VolumeErrors,
     VolumeResolution,
+    next_resolution,
     resolution_of,
     volume_resolution,
     with_refinements,
 )
+from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tetrahedra import unknown_count
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_ATTEMPTS = 5
@@ -156,12 +159,16 @@ def _solve(
         attempt = next(attempts)
         products: Products = as_made
         sizes = with_refinements(tank, resolution.sizes, mirrors)
-        mesh, geometry = distributed_volume(tank, sizes, mirrors, processes)
+        layered = bool(resolution.sizes.layers)
+
+        def require_room(cells: NodedMesh, refinements: int) -> None:
+            unknowns, problems = unknown_count(cells, resolution.degree, refinements), image_count(mirrors)
+            require_memory(unknowns, resolution.degree, count, problems=problems, factorized=layered)
+
+        mesh, geometry = distributed_volume(tank, sizes, mirrors, processes, require_room)
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
-        layered = bool(resolution.sizes.layers)
-        require_memory(size, resolution.degree, count, processes, problems=model.images, factorized=layered)
         solver_of = partial(direct_or_multigrid, tolerance=tolerance)
         # Multigrid would hardly converge on layers.
         pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
@@ -241,7 +248,8 @@ def _solve(
 
 def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeResolution | None:
     """The next resolution, ``None`` where there is none; the factors of the last one are given back (collective)."""
-    finer = solution.model.resolution.refined(solution.errors.first(count), tolerance)
+    model = solution.model
+    finer = next_resolution(model.resolution, solution.errors.first(count), model.tank, tolerance, count, model.mirrors)
     if finer is not None:
         for one in solution.modes.classes:
             if isinstance(one.pencil.solver, LiquidSolver):
@@ -250,16 +258,14 @@ def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeRe
     return finer
 
 
-def require_memory(
-    unknowns: int, degree: int, modes: int, comm: MPI.Comm, *, problems: int = 1, factorized: bool = False
-) -> None:
-    """Refuse a problem that does not fit into the memory of the first process's computer (collective).
+def require_memory(unknowns: int, degree: int, modes: int, *, problems: int = 1, factorized: bool = False) -> None:
+    """Refuse a problem that does not fit into the memory of this process's computer.
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
     needed = memory_needed(unknowns, degree, modes, problems=problems, factorized=factorized)
-    free = comm.bcast(free_memory())
+    free = free_memory()
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

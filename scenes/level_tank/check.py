@@ -176,7 +176,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     from hydroelastic.fem.volume.distribution import unfolded_volume
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
-    from hydroelastic.fem.volume.resolution import volume_resolution, with_refinements
+    from hydroelastic.fem.volume.resolution import expected_unknowns, volume_resolution, with_refinements
     from hydroelastic.meshes.tagged_mesh import MeshError
     from hydroelastic.meshes.tetrahedra import unknown_count
 
@@ -209,6 +209,13 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
     needed = memory_needed(unknowns, resolution.degree, modes, problems=parts, factorized=layered) / 2**30
     yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
+    if free is not None and needed > free / 2**30:
+        yield "  That does not fit, and a run ends at once: ask for a larger tolerance or fewer modes."
+    usual = volume_resolution(tank, tolerance, modes, mirrors, severity=1.0)
+    if usual != resolution:
+        later, factorized = round(expected_unknowns(tank, usual, mirrors)), bool(usual.sizes.layers)
+        most = memory_needed(later, usual.degree, modes, problems=parts, factorized=factorized) / 2**30
+        yield f"  Where it shows that the edges ask for more, about {later:.1g} unknowns and {most:.1f} GiB follow."
     shown = "The decay of ψ with the degree" if resolution.degree > 2 else "What the third degree adds to ψ"
     yield f"  {shown}, and the volume of curved cells, show the error; where it is too large"
     yield "  cells are made smaller at the edges of plates, elsewhere, or at curved walls."

@@ -158,8 +158,10 @@ def test_a_spring_between_two_bodies_moves_them_together() -> None:
         ({"damping": [[1.0, 2.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 0.0]]}, "it adds power"),
         ({"damping": [-1.0, 0.0, 0.0]}, "it adds power"),
         ({"stiffness": [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]}, "it is not symmetric"),
-        ({"body": 2}, "there is no body of that number"),
-        ({"to": 1}, "both ends hold the same body"),
+        ({"body": 2, "stiffness": [1.0, 0.0, 0.0]}, "there is no body of that number"),
+        ({}, "it has no force"),
+        ({"stiffness": [-1e9, 0.0, 0.0]}, "its springs push the float away from its rest"),
+        ({"to": 1, "stiffness": [1.0, 0.0, 0.0]}, "both ends hold the same body"),
         ({"quadratic_damping": [1.0, 0.0, 0.0]}, "is not a sum of exponentials"),
     ],
 )

@@ -128,6 +128,7 @@ def test_loads_along_a_plate() -> None:
         ({"peak_period": None}, "it is missing"),
         ({"waves": "table", "omega": [1.0, 2.0]}, "it is missing, and waves = .table. need it"),
         ({"density": [1.0]}, "does not belong to waves"),
+        ({"waves": "pierson_moskowitz", "peak_enhancement": 7.0}, "does not belong to waves"),
     ],
 )
 def test_incomplete_seas_are_refused(keys: dict[str, Any], message: str) -> None:

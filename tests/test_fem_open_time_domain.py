@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,9 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models import SeaScene, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.open_water.solve import solve_open
 
 TOLERANCE, CREST = 1e-2, 1.5
 WAVE = RegularWave(omega=2.2, amplitude=0.05, phase=0.3)
@@ -129,9 +131,41 @@ def test_regular_waves_end_in_the_response_of_the_frequency_domain(depth: float)
 def test_a_release_over_time_is_the_decay_of_the_frequency_domain() -> None:
     """Cummins' equation from a displacement, and the inverse Fourier transform of `decay.py`."""
     times = tuple(np.linspace(0.0, 20.0, 101).tolist())
-    requests = (MotionRequest(times=times, waves=(), heave=0.1), DecayRequest(heave=0.1, times=times))
+    requests = (MotionRequest(times=times, waves=(), displacement={"heave": 0.1}), DecayRequest(heave=0.1, times=times))
     solution = solve_open_water(problem(np.inf), requests)
     assert not solution.reasons
     (motion,), (decay,) = solution.motion, solution.decay
     assert motion.displacement[0, 0] == pytest.approx(0.1)
     np.testing.assert_allclose(motion.displacement, decay.displacement, rtol=0.0, atol=TOLERANCE * 0.1)
+
+
+def test_a_moored_float_that_is_pulled_aside_swings_back_at_its_resonance() -> None:
+    body = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0, "motions": ["sway"]}
+    times = tuple(np.linspace(0.0, 40.0, 801).tolist())
+    scene = SeaScene(
+        liquid=[{"density": 1000.0, "depth": 3.0}],
+        body=[body],
+        attachment=[{"stiffness": [0.0, 500.0, 0.0]}],
+        analysis=[
+            {"kind": "motion", "displacement": {"sway": 0.1}, "times": times},
+            {"kind": "resonance", "count": 1},
+        ],
+        accuracy={"tolerance": TOLERANCE},
+    )
+    solution = solve_open(scene, MPI.COMM_WORLD, lambda _message: None)
+    assert not solution.reasons
+    (motion,), (resonance,) = solution.motion, solution.resonance
+    sway, omega = motion.displacement[:, 0], resonance.omega[0]
+    assert sway[0] == pytest.approx(0.1)
+    # Re C e^{−iωt} between two zeros: half a period apart, with extremes that decrease by e^{−π γ/ω}.
+    zeros = _zeros(motion.times, sway)
+    assert np.diff(zeros)[1:3] == pytest.approx(np.pi / omega.real, rel=TOLERANCE)
+    extremes = [np.abs(sway[(motion.times > low) & (motion.times < high)]).max() for low, high in pairwise(zeros[:4])]
+    assert extremes[2] / extremes[1] == pytest.approx(np.exp(np.pi * omega.imag / omega.real), rel=3.0 * TOLERANCE)
+
+
+def _zeros(times: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Times at which a motion passes zero."""
+    before = np.flatnonzero(values[1:] * values[:-1] < 0.0)
+    parts = values[before] / (values[before] - values[before + 1])
+    return np.asarray(times[before] + parts * (times[before + 1] - times[before]))

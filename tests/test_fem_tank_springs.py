@@ -72,7 +72,7 @@ def test_springs_add_to_the_stiffness_of_gravity(tanks: Tanks) -> None:
     [
         ({"damping": [1.0, 0.0, 0.0]}, "real symmetric problem, which has no damping"),
         ({"quadratic_damping": [1.0, 0.0, 0.0]}, "real symmetric problem, which has no damping"),
-        ({"to": 2}, "there is no body of that number"),
+        ({"to": 2, "stiffness": [1.0, 0.0, 0.0]}, "there is no body of that number"),
         ({"stiffness": [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]}, "it is not symmetric"),
     ],
 )

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # A band is widened to that of another analysis down to this part of its lowest and up to this multiple of its highest
 # frequency: both analyses then share mesh, matrices and solutions.
-_LOWER, _HIGHER = 0.4, 1.35
+_LOWER, _HIGHER = 0.4, 2.0
 # Tolerance of solutions that give initial values only.
 _ROUGH = 1e-3
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import inf
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
@@ -137,8 +138,7 @@ class MotionRequest:
         ramp: time in which they grow to their height, s.
         elastic_modes: number of elastic shapes of each beam.
         body: index of the float that is released at t = 0.
-        heave: its initial displacement upwards, m.
-        roll: its initial rotation, the roll of a section or the pitch of a solid, rad.
+        displacement: its initial displacement by the name of the motion, m or rad.
     """
 
     kind: ClassVar = "motion"
@@ -148,16 +148,12 @@ class MotionRequest:
     ramp: float = 0.0
     elastic_modes: int = 4
     body: int = 0
-    heave: float = 0.0
-    roll: float = 0.0
+    displacement: Mapping[str, float] = field(default_factory=dict)
 
     def initial(self, dofs: tuple[Dof, ...]) -> tuple[float, ...]:
         """Return the displacement of each motion at t = 0, m or rad."""
         return tuple(
-            {"heave": self.heave, "roll": self.roll, "pitch": self.roll}.get(dof.motion, 0.0)
-            if (dof.body or 1) - 1 == self.body
-            else 0.0
-            for dof in dofs
+            self.displacement.get(dof.motion, 0.0) if (dof.body or 1) - 1 == self.body else 0.0 for dof in dofs
         )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import BeforeValidator, Field, Strict
+from pydantic import BeforeValidator, Field, Strict, model_validator
 
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem
@@ -53,3 +53,9 @@ class Attachment(SparseModel):
         default=(0.0, 0.0, 0.0),
         description="β of [heave, sway, roll] about the point in forces β |v| v, kg/m²; of roll in kg·m",
     )
+
+    @model_validator(mode="after")
+    def _holds(self) -> Attachment:
+        if not any(any(row) for row in (*self.stiffness, *self.damping, self.quadratic_damping)):
+            raise problem("it has no force", remedy="Give stiffness, damping or quadratic_damping")
+        return self

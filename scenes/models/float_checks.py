@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.motions import PLACES
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
 from hydroelastic.scenes.models.open_checks import depths_can_be_meshed, length_scale_of_bodies
@@ -373,6 +374,25 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         )
 
 
+def _springs_let_floats_rest(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """A negative stiffness, as of a mechanism, must be less than that of gravity and of the other springs."""
+    for index, body in scene.floats:
+        from hydroelastic.scenes.models.floats import held_float, placed_float
+
+        held = held_float(scene, index, placed_float(scene, index))
+        if held.springs and body.unstable != "solve":
+            for motion in body.motions:
+                stiffness = held.stiffness[PLACES[motion], PLACES[motion]]
+                if stiffness < 0.0:
+                    yield problem_at(
+                        ("body", index, "motions"),
+                        motion,
+                        "its springs push the float away from its rest: with that of gravity the stiffness is "
+                        f"{stiffness:.4g}",
+                        remedy='Make the stiffness of [[attachment]] larger, or set unstable = "solve"',
+                    )
+
+
 def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails]:
     """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
     thin = [(index, body.position) for index, body in scene.floats if body.boundary == "thin"]
@@ -395,5 +415,10 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
                 )
 
 
-CHECKS_OF_FLOATS_AT_REST = (_bodies_keep_apart, _thin_floats_have_free_liquid, _floats_are_stable)
+CHECKS_OF_FLOATS_AT_REST = (
+    _bodies_keep_apart,
+    _thin_floats_have_free_liquid,
+    _floats_are_stable,
+    _springs_let_floats_rest,
+)
 """What asks where the floats rest, when that is known to be in the tank."""

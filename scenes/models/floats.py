@@ -109,8 +109,19 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
         scene.tank.gravity,
         (state.st_mtime_ns, state.st_size) if state is not None else None,
     )
-    own = [one for one in scene.attachment if one.body == index + 1]
-    return placed if scene.is_open or not own else replace(placed, springs=_springs(placed, own))
+    return placed if scene.is_open else held_float(scene, index, placed)
+
+
+def held_float(scene: TankParts, index: int, placed: RigidFloat) -> RigidFloat:
+    """Return a float that is placed, with its springs to the ground.
+
+    Args:
+        scene: the scene.
+        index: of the float among the bodies.
+        placed: see `placed_float`.
+    """
+    own = [one for one in scene.attachment if one.body == index + 1 and one.to is None]
+    return replace(placed, springs=_springs(placed, own)) if own else placed
 
 
 def _springs(placed: RigidFloat, attachments: list[Attachment]) -> Matrix:

@@ -219,8 +219,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
                 allowed=" or ".join(numbers) if numbers else "none: this scene has no float",
             )
             continue
-        for motion in ("heave", "roll", "pitch"):
-            value = getattr(released, motion)
+        for motion, value in released.amounts.items():
             if value != 0.0 and motion not in body.motions:
                 yield problem_at(
                     ("analysis", index, "displacement", motion),

@@ -134,8 +134,10 @@ def _problems_of(sea: Spectrum) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 (key,), None, f'it is missing, and waves = "{sea.waves}" need it', allowed=f"{description}"
             )
-    for key in idle:
-        if getattr(sea, key):
+    enhanced = () if sea.waves == "jonswap" else ("peak_enhancement",)
+    for key in (*idle, *enhanced):
+        # What a scene is written with has all defaults.
+        if getattr(sea, key) != Spectrum.model_fields[key].default:
             yield problem_at((key,), None, f'it does not belong to waves = "{sea.waves}"', remedy="Leave it out")
     if sea.waves != "table" or not (sea.omega and sea.density):
         return

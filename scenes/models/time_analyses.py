@@ -31,13 +31,25 @@ class Release(SceneModel):
 
     @model_validator(mode="after")
     def _is_somewhere(self) -> Release:
-        if self.heave == self.roll == self.pitch == 0.0:
+        if not any(self.amounts.values()):
             raise problem("the float is released from its equilibrium", allowed="a heave or a roll other than 0")
         return self
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if key != "pitch" or value}
+        return {key: value for key, value in write(self).items() if key in ("heave", "roll") or value}
+
+    @property
+    def amounts(self) -> dict[str, float]:
+        """The displacement of each motion, m or rad."""
+        return {key: float(getattr(self, key)) for key in type(self).model_fields}
+
+
+class Offset(Release):
+    """Displacement from which a float begins to move, sideways too where moorings pull it back."""
+
+    sway: AnyNumber = Field(default=0.0, description="of a section, to the right, m")
+    surge: AnyNumber = Field(default=0.0, description="of a solid, along x, m")
 
 
 def _as_heave(value: Any) -> Any:
@@ -88,6 +100,12 @@ class RandomWaves(SceneModel):
         default=200, description="how many regular waves, of equal energy"
     )
 
+    @model_validator(mode="after")
+    def _has_its_peak(self) -> RandomWaves:
+        if self.waves != "jonswap" and self.peak_enhancement != type(self).model_fields["peak_enhancement"].default:
+            raise problem(f'peak_enhancement does not belong to waves = "{self.waves}"', remedy="Leave it out")
+        return self
+
     @property
     def words(self) -> str:
         """Description of the waves."""
@@ -123,9 +141,10 @@ class Motion(SparseModel):
     random_waves: RandomWaves | None = Field(
         default=None, description="irregular waves in place of these, a table of a spectrum with a seed"
     )
-    displacement: Displacement | None = Field(
+    displacement: Annotated[Offset, BeforeValidator(_as_heave), OrElse({"type": "number"})] | None = Field(
         default=None,
-        description="displacement from which a float is released at t = 0, as in a decay; without it waves are needed",
+        description="displacement from which a float is released at t = 0: heave in m, or a table {heave, sway, roll}, "
+        "of solids {heave, surge, pitch}, in m and rad; without it waves are needed",
     )
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] | None = Field(
         default=None, description="number of the float that is released, from 1; by default the first body"
@@ -166,6 +185,5 @@ class Motion(SparseModel):
             ramp=self.ramp,
             elastic_modes=self.elastic_modes,
             body=(self.body or 1) - 1,
-            heave=start.heave if start else 0.0,
-            roll=(start.roll or start.pitch) if start else 0.0,
+            displacement=start.amounts if start else {},
         )

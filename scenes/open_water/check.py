@@ -94,8 +94,10 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
 
 
 def _release(body: int, start: Release) -> str:
-    amounts = (("heave", start.heave, "m"), ("roll", start.roll, "rad"), ("pitch", start.pitch, "rad"))
-    motions = " and ".join(f"{value:g} {unit} in {name}" for name, value, unit in amounts if value)
+    units = {"roll": "rad", "pitch": "rad"}
+    motions = " and ".join(
+        f"{value:g} {units.get(name, 'm')} in {name}" for name, value in start.amounts.items() if value
+    )
     return f"float {body} is released at {motions}"
 
 

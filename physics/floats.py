@@ -83,7 +83,7 @@ class RigidFloat(Body):
     def scaled(self, units: Scales, start: float, end: float) -> RigidFloat:
         """Return the float in other units, between given contact points in these units."""
         # On the axis of a solid the contour goes on to its other half.
-        on_axis = start == 0.0 == self.hull.middle
+        on_axis = start == 0.0 and abs(self.hull.middle) <= self.hull.rounding
         hull = self.hull.scaled(units.length, -end if on_axis else start, end)
         arms, force = np.array([units.length, units.length, 1.0]), units.density * units.gravity * units.volume
         factors = np.outer(arms, arms) / (force * units.length)

@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from solids_at_sea import problem_of
 
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.solids import solid_of_revolution
@@ -38,3 +39,14 @@ def test_rotations_are_right_handed_about_the_centre_of_mass() -> None:
     np.testing.assert_allclose(box.displacement("roll", beside), np.cross([1.0, 0.0, 0.0], np.eye(3)).T, atol=1e-15)
     np.testing.assert_allclose(box.displacement("pitch", beside), np.cross([0.0, 1.0, 0.0], np.eye(3)).T, atol=1e-15)
     np.testing.assert_allclose(box.displacement("yaw", beside), np.cross([0.0, 0.0, 1.0], np.eye(3)).T, atol=1e-15)
+
+
+@pytest.mark.parametrize("draught", [0.3, 0.6, 1.0, 1.01, 1.2, 1.4, 1.7])
+def test_a_sphere_on_the_axis_keeps_both_halves_in_other_units(draught: float) -> None:
+    """The contact points are each other's mirror images but for rounding, whatever the draught."""
+    hull = problem_of([{"shape": "sphere", "radius": 1.0, "draught": draught}], 5.0, 1e-3).tank.scaled().bodies[0].hull
+    assert hull is not None
+    left, right = hull.below[0].start, hull.below[-1].end
+    assert left == (-right[0], right[1])
+    assert hull.below[0].end == hull.below[-1].start
+    assert hull.below[0].end[0] == 0.0

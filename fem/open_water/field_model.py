@@ -166,26 +166,23 @@ class OpenModel:
         matrix: np.ndarray = block_diag(*(body.mass for body in self.pencil.bodies))
         return matrix
 
-    def energies_missed(
-        self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def energies_missed(self, potentials: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials ψ in cells away from tips and at tips (collective).
 
         Args:
             potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
-            layer_weight: weight of cells in the absorbing layer, for all ψ or of shape (potentials,).
 
         Returns:
             Both energies, dimensionless, each of shape (potentials,).
         """
-        return self.summed_over_cells(self.cells_missed(potentials, layer_weight))
+        return self.summed_over_cells(self.cells_missed(potentials))
 
-    def cells_missed(self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT) -> np.ndarray:
+    def cells_missed(self, potentials: np.ndarray) -> np.ndarray:
         """The same in each own cell, shape (potentials, cells)."""
         pencil, outside = self.pencil, self.in_absorbing_layer
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, len(outside)).sum(axis=1)
-        weighed: np.ndarray = cells * np.where(outside, np.reshape(layer_weight, (-1, 1)), 1.0)
+        weighed: np.ndarray = cells * np.where(outside, LAYER_WEIGHT, 1.0)
         return weighed
 
     def summed_over_cells(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

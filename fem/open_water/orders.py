@@ -187,13 +187,16 @@ def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> Respo
     if len(whole.waves) > 1:
         drift, drift_error = np.full((2, len(whole.omega)), np.nan)
     else:
+        widths, waves = drift_widths(problem.tank, whole.omega)[1], whole.partial_waves[:, 0, 0]
         drift, drift_error = drift_of_orders(
-            drift_widths(problem.tank, whole.omega)[1],
-            whole.partial_waves[:, 0, 0],
+            widths,
+            waves,
             np.stack([one.wave_errors for one in found], axis=1),
             np.array([table.energy_residual[:, 0] for table in tables]).T,
         )
         drift = direction_of(whole.waves_from) * drift.sum(axis=1)
+        # The pair of the last order and the next, which scatters far less, is −|aₙ|².
+        drift_error += widths * np.abs(waves[:, -1]) ** 2
     return replace(
         whole,
         drift_force=drift[:, None],

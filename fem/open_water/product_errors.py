@@ -15,6 +15,8 @@ products turns from degree to degree, and their modulus counts. There an outgoin
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from hydroelastic.fem.liquid import cell_values
@@ -33,6 +35,32 @@ def product_errors(model: OpenModel, duals: np.ndarray, potentials: np.ndarray) 
     Returns:
         Dimensionless, shape (pairs,).
     """
+    layer = model.in_absorbing_layer
+    cells = _cells(model, duals, potentials, lambda product: np.where(layer, np.abs(product), np.abs(product.real)))
+    away, tips = model.summed_over_cells(cells)
+    total: np.ndarray = away + tips
+    return total
+
+
+def square_errors(model: OpenModel, potentials: np.ndarray, layer_weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Estimate |A_λ(ψ − ψ_h, ψ − ψ_h)| in cells away from tips and at tips (collective).
+
+    Args:
+        model: the problem.
+        potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
+        layer_weight: weight of cells in the absorbing layer for each ψ, shape (potentials,).
+
+    Returns:
+        Both, dimensionless, each of shape (potentials,).
+    """
+    cells = _cells(model, potentials, potentials, np.abs)
+    return model.summed_over_cells(cells * np.where(model.in_absorbing_layer, layer_weight[:, None], 1.0))
+
+
+def _cells(
+    model: OpenModel, duals: np.ndarray, potentials: np.ndarray, size: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """The estimate of each own cell, with a size of the complex products in it, shape (pairs, cells)."""
     count, weights = len(duals), model.gradient_weights
     vectors = [model.pencil.vector(part) for psi in (*duals, *potentials) for part in (psi.real, psi.imag)]
     energies, products = [], []
@@ -41,11 +69,9 @@ def product_errors(model: OpenModel, duals: np.ndarray, potentials: np.ndarray) 
         turned = np.repeat(weights, coefficients.shape[2] // weights.shape[1], axis=1)
         waves = coefficients[::2] + 1j * coefficients[1::2]
         energies.append((np.abs(turned) * np.abs(waves) ** 2).sum(axis=2))
-        product = (turned * waves[:count] * waves[count:]).sum(axis=2)
-        products.append(np.where(model.in_absorbing_layer, np.abs(product), np.abs(product.real)))
+        products.append(size((turned * waves[:count] * waves[count:]).sum(axis=2)))
     missed, last = np.sqrt(missing_energy(*energies)), np.sqrt(energies[0] + energies[1])
     # Cells at rest have no energy in any degree.
     parts = (products[0] + products[1]) / np.maximum(last[:count] * last[count:], np.finfo(float).tiny)
-    away, tips = model.summed_over_cells(missed[:count] * missed[count:] * parts)
-    total: np.ndarray = away + tips
-    return total
+    cells: np.ndarray = missed[:count] * missed[count:] * parts
+    return cells

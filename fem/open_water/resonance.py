@@ -19,6 +19,7 @@ from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep
 from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.product_errors import square_errors
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
@@ -352,14 +353,14 @@ def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> 
 
 
 def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
-    """Estimate relative errors of ω, half of those of λ: energy error over xᵀT'x, and dλ/dα (collective)."""
+    """Estimate relative errors of ω, half of those of λ: A_λ(ψ − ψ_h, ψ − ψ_h) over xᵀT'x, and dλ/dα (collective)."""
     count = len(pairs)
     if not pairs:
         return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
     # The stronger the damping, the less do errors in the absorbing layer cancel.
     omegas = np.sqrt(np.array([pair.eigenvalue for pair in pairs]))
     weights = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, LAYER_WEIGHT)
-    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), weights)
+    away, tips = square_errors(model, np.array([pair.potential for pair in pairs]), weights)
     norms = np.array([abs(pair.norm) for pair in pairs])
     drifts = np.array([pair.drift for pair in pairs])
     tank = model.basin.tank

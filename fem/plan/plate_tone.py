@@ -71,16 +71,16 @@ class ClassModel(Protocol, Generic[R]):
 
 @dataclass(frozen=True, kw_only=True)
 class _Found:
-    """A tone at one resolution: the modes of its class, and the errors by cause, shape (causes, 1)."""
+    """Tones of one class at one resolution, with λ and the errors by cause, shape (causes, tones)."""
 
-    tone: ElasticTone
-    eigenvalue: float
-    errors: np.ndarray
+    tones: list[ElasticTone]
+    eigenvalues: FloatArray
+    errors: FloatArray
 
     @property
-    def relative_error(self) -> float:
-        """Of its frequency."""
-        return float(self.errors.sum())
+    def relative_errors(self) -> FloatArray:
+        """Of their frequencies."""
+        return np.asarray(self.errors.sum(axis=0))
 
 
 def class_tones(
@@ -102,10 +102,13 @@ def class_tones(
             released = _released(model, found.classes[number].parity, [dry[at][2] for at in own], tolerance)
             for at, tone in zip(own, released, strict=True):
                 dry[at] = (*dry[at][:2], tone)
-    return [
-        _listed(found, errors, number, place, tone) or _sought(model, found.classes[number], place, tone, tolerance)
-        for number, place, tone in dry
-    ]
+    tones = [_listed(found, errors, number, place, tone) for number, place, tone in dry]
+    for number in sorted({number for number, _, _ in dry}):
+        own = [at for at, (other, _, _) in enumerate(dry) if other == number and tones[at] is None]
+        sought = _sought(model, found.classes[number], [dry[at][1:] for at in own], tolerance)
+        for at, tone in zip(own, sought, strict=True):
+            tones[at] = tone
+    return [tone for tone in tones if tone is not None]
 
 
 def listed_tones(
@@ -177,55 +180,72 @@ def _softest(found: ClassModes, plate: int) -> tuple[int, int, int]:
     return min(candidates)[1:]
 
 
-def _sought(model: ClassModel[R], one: SymmetryClass, place: int, tone: PlateTone, tolerance: float) -> PlateTone:
-    """The tone among more modes of its class."""
-    release = tone.pressure_release
+def _sought(
+    model: ClassModel[R], one: SymmetryClass, wanted: list[tuple[int, PlateTone]], tolerance: float
+) -> list[PlateTone]:
+    """Tones of plates at some places of a class among more of its modes."""
     area = model.tank.plan.area / 2.0 ** sum(own is not None for own in one.parity)
     count = len(one.modes.eigenvalues)
-    if release is not None:
-        # Weyl's law for water; waves in stiff plates are fewer.
-        count = max(count, ceil(1.1 * area * water_wavenumber(model.tank, release) ** 2 / (4.0 * pi)) + 6)
-    while count <= _MOST_MODES:
+    for _, tone in wanted:
+        if tone.pressure_release is not None:
+            # Weyl's law for water; waves in stiff plates are fewer.
+            wavenumber = water_wavenumber(model.tank, tone.pressure_release)
+            count = max(count, ceil(1.1 * area * wavenumber**2 / (4.0 * pi)) + 6)
+    found: dict[int, PlateTone] = {}
+    left = dict(wanted)
+    while left and count <= _MOST_MODES:
         modes = solve_modes(one.pencil, count, shapes=0, tolerance=1e-8)
-        guess = elastic_tone(modes, one.pencil.bodies, place, pressure_release=release)
-        if guess.certain:
-            return _resolved(model, one, place, tone, float(modes.eigenvalues[guess.index]), count, tolerance)
+        guesses = {place: _guess(modes, one.pencil, place, tone) for place, tone in left.items()}
+        certain = {place: left.pop(place) for place, guess in guesses.items() if guess.certain}
+        if certain:
+            highest = max(float(modes.eigenvalues[guesses[place].index]) for place in certain)
+            found |= _resolved(model, one, certain, highest, count, tolerance)
         if len(modes.eigenvalues) < count:
             break
         count = ceil(1.6 * count)
     reason = f"it lies above more than {_MOST_MODES} modes of its symmetry, or is spread over them"
-    return replace(tone, reason=reason if release is None else f"{reason}; see the pressure-release tone")
+    for place, tone in left.items():
+        further = "" if tone.pressure_release is None else "; see the pressure-release tone"
+        found[place] = replace(tone, reason=reason + further)
+    return [found[place] for place, _ in wanted]
+
+
+def _guess(modes: ModeSet, pencil: CoupledPencil, place: int, tone: PlateTone) -> ElasticTone:
+    return elastic_tone(modes, pencil.bodies, place, pressure_release=tone.pressure_release)
 
 
 def _resolved(
     model: ClassModel[R],
     one: SymmetryClass,
-    place: int,
-    tone: PlateTone,
-    eigenvalue: float,
+    wanted: dict[int, PlateTone],
+    highest: float,
     count: int,
     tolerance: float,
-) -> PlateTone:
-    """The tone near a λ, to the tolerance."""
+) -> dict[int, PlateTone]:
+    """Tones of plates by their places, all up to a λ, to the tolerance."""
 
     def solve(resolution: R) -> _Found:
         pencil, plates = model.problem(resolution, one.parity)
         assert pencil is not None
         modes: ModeSet = solve_modes(pencil, count, shapes=0, tolerance=max(1e-3 * tolerance, 1e-12))
-        found = elastic_tone(modes, pencil.bodies, place, pressure_release=tone.pressure_release)
+        found = [_guess(modes, pencil, place, tone) for place, tone in wanted.items()]
         again = replace(one, pencil=pencil, modes=modes)
-        errors = model.errors(resolution, again, plates, [modes.completed(found.index)])
-        return _Found(tone=found, eigenvalue=float(modes.eigenvalues[found.index]), errors=errors)
+        errors = model.errors(resolution, again, plates, [modes.completed(tone.index) for tone in found])
+        return _Found(tones=found, eigenvalues=modes.eigenvalues[[tone.index for tone in found]], errors=errors)
 
     best = adaptive_solve(
-        model.start(tolerance, eigenvalue),
+        model.start(tolerance, highest),
         solve,
-        lambda found: ErrorEstimate(discretization=found.relative_error),
+        lambda found: ErrorEstimate(discretization=float(found.relative_errors.max())),
         lambda resolution, found: model.refined(resolution, found.errors, tolerance),
         tolerance,
         rounds=_ROUNDS,
     ).solution
-    return replace(tone, tone=best.tone, eigenvalue=best.eigenvalue, relative_error=best.relative_error)
+    known = zip(best.tones, map(float, best.eigenvalues), map(float, best.relative_errors), strict=True)
+    return {
+        place: replace(tone, tone=own, eigenvalue=value, relative_error=error)
+        for (place, tone), (own, value, error) in zip(wanted.items(), known, strict=True)
+    }
 
 
 def _released(model: ClassModel[R], parity: ClassParity, tones: list[PlateTone], tolerance: float) -> list[PlateTone]:

@@ -96,7 +96,7 @@ class DenseModes:
         block[:rigid] = block[:, :rigid].T
         kept = volumes[with_rigid:].T.copy()
         kept[self._free] = 0.0
-        basis, triangle = np.linalg.qr(kept)
+        basis, triangle = np.linalg.qr(kept) if kept.size else (kept, np.empty((0, 0)))
         return follow, 0.5 * (block + block.T), basis, triangle
 
     def operator(self) -> np.ndarray:
@@ -135,7 +135,7 @@ class DenseModes:
         motions[self._free] = followed[:rigid]
         moving = self.kinetics @ motions
         moving[self._free] = 0.0
-        held = -np.linalg.solve(triangle, basis.T @ moving)
+        held = -np.linalg.solve(triangle, basis.T @ moving) if basis.size else np.empty((0, len(eigenvalues)))
         turn, _ = self._pencil.rigid_constraints
         pressures = turn @ np.concatenate([followed[rigid:], held])
         residuals = self._whole(forces) - eigenvalues * (self._columns @ motions + self._volumes.T @ pressures)

@@ -145,8 +145,8 @@ class CoupledPencil(Generic[Unknowns]):
 
         Pitch displaces none; values within round-off are set to zero.
         """
-        if not len(self.free_rigid):
-            return np.empty((0, len(self.constraints)))
+        if not len(self.free_rigid) or not self.constraints:
+            return np.empty((len(self.free_rigid), len(self.constraints)))
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
         largest = self.coupling.norm(PETSc.NormType.NORM_1)
         table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]

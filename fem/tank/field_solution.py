@@ -209,7 +209,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     bodies = whole_bodies(tank, shapes)
     extensions = [extension(tank, bodies, part.parity) for part in parts]
     shares = [_shares(one) for one in extensions]
-    amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
+    of_parts = [part.modes.elastic_amplitudes @ one.T for part, one in zip(parts, extensions, strict=True)]
+    amplitudes = [of_parts[number][index] for number, index in origins]
 
     def completed(place: int) -> Mode:
         number, index = origins[place]

@@ -48,7 +48,7 @@ class Liquids:
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
 
-    def known(self, physical: Tank) -> TankSolution | None:
+    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
         """Return the solution of a tank that is solved already."""
         return None
 
@@ -89,13 +89,13 @@ class SharedLiquids(Liquids):
         of_limit: the resolution of the first attempt at the infinite-frequency limit, for all of them.
         growing: whether what is known of the liquid grows with each tank that is solved; then results depend on those
             before.
-        solved: solutions of some of the tanks, in SI units.
+        solved: solutions by tank in SI units, tolerance and number of modes.
     """
 
     of_field: Resolution
     of_limit: Resolution
     growing: bool = True
-    solved: dict[Tank, TankSolution] = field(default_factory=dict)
+    solved: dict[tuple[Tank, float, int], TankSolution] = field(default_factory=dict)
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -104,9 +104,9 @@ class SharedLiquids(Liquids):
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return sought_modes(tank, modes=modes, tones=tones, motions=motions).with_elements(self.of_field)
 
-    def known(self, physical: Tank) -> TankSolution | None:
+    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
         """See `Liquids.known`."""
-        return self.solved.get(physical)
+        return self.solved.get((physical, tolerance, modes))
 
     def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
         """See `Liquids.first_of_limit` and `first`."""

@@ -138,7 +138,7 @@ def solve_tank(
         MeshError: if the mesh does not fit the scene.
         EigenSolverError: if the eigen-solver fails.
     """
-    known = liquids.known(physical)
+    known = liquids.known(physical, tolerance, modes)
     if known is not None:
         return known
     comm = comm or MPI.COMM_WORLD
@@ -333,6 +333,8 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
     liquids.of_field = finest([one.resolution for one in solved])
     liquids.growing = False
     liquids.solved = {
-        one.physical: one for one in solved if one.resolution == liquids.first(one.tank, tolerance, modes)
+        (one.physical, tolerance, modes): one
+        for one in solved
+        if one.resolution == liquids.first(one.tank, tolerance, modes)
     }
     return liquids

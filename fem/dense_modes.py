@@ -56,11 +56,11 @@ class DenseModes:
         self._scale = np.where(stiffness > 0.0, stiffness, 1.0) ** -0.5
         of_bodies = pencil.volumes[:, :bodies] * self._scale
         if projection is None:
-            self._columns = self.kinetics = self._with_bodies(answer.scaled)
+            self._columns, self.kinetics = answer.scaled, self._with_bodies(answer.scaled)
             self._root = answer.root
             self._volumes = self.volumes = np.hstack([of_bodies, pencil.volumes[:, bodies:] @ answer.root])
         else:
-            self._columns, self.kinetics = map(self._with_bodies, (projection.columns, projection.kinetics))
+            self._columns, self.kinetics = projection.columns, self._with_bodies(projection.kinetics)
             self._root = projection.root
             self._volumes = np.hstack([of_bodies, projection.volumes])
             self.volumes = np.hstack([of_bodies, projection.projected_volumes])
@@ -72,6 +72,14 @@ class DenseModes:
         kinetics[:bodies] *= self._scale[:, None]
         kinetics[:, :bodies] *= self._scale
         return kinetics
+
+    def _momenta(self, motions: np.ndarray) -> np.ndarray:
+        """T times motions."""
+        bodies, scale = self._pencil.body_size, self._scale[:, None]
+        own = scale * motions[:bodies]
+        momenta: np.ndarray = self._columns @ np.concatenate([own, motions[bodies:]])
+        momenta[:bodies] = scale * (momenta[:bodies] + self._pencil.body_mass @ own)
+        return momenta
 
     def _whole(self, vectors: np.ndarray) -> np.ndarray:
         """E times vectors."""
@@ -96,7 +104,7 @@ class DenseModes:
         block[:rigid] = block[:, :rigid].T
         kept = volumes[with_rigid:].T.copy()
         kept[self._free] = 0.0
-        basis, triangle = np.linalg.qr(kept)
+        basis, triangle = np.linalg.qr(kept) if kept.size else (kept, np.empty((0, 0)))
         return follow, 0.5 * (block + block.T), basis, triangle
 
     def operator(self) -> np.ndarray:
@@ -135,10 +143,10 @@ class DenseModes:
         motions[self._free] = followed[:rigid]
         moving = self.kinetics @ motions
         moving[self._free] = 0.0
-        held = -np.linalg.solve(triangle, basis.T @ moving)
+        held = -np.linalg.solve(triangle, basis.T @ moving) if basis.size else np.empty((0, len(eigenvalues)))
         turn, _ = self._pencil.rigid_constraints
         pressures = turn @ np.concatenate([followed[rigid:], held])
-        residuals = self._whole(forces) - eigenvalues * (self._columns @ motions + self._volumes.T @ pressures)
+        residuals = self._whole(forces) - eigenvalues * (self._momenta(motions) + self._volumes.T @ pressures)
         return CompletedModes(
             eigenvalues=eigenvalues,
             forces=forces,
@@ -179,7 +187,7 @@ def projection_errors(inverses: np.ndarray, residuals: np.ndarray) -> np.ndarray
     The distances are those of computed values, which are as good as exact ones where the bound is small.
     """
     count = len(residuals)
-    steps = -np.diff(inverses, prepend=np.inf, append=0.0)[: count + 1]
+    steps = -np.diff(np.concatenate([[np.inf], inverses[: count + 1], [0.0]]))[: count + 1]
     gaps = np.minimum(steps[:-1], steps[1:]) / inverses[:count]
     bound: np.ndarray = np.minimum(residuals, residuals**2 / np.maximum(gaps, np.finfo(float).tiny))
     return bound

@@ -108,7 +108,7 @@ def _shared_count(pencil: CoupledPencil, answer: SharedAnswer, eigenvalue: float
         return None
     negative, left = found
     left[:bodies, :bodies] -= eigenvalue * pencil.body_mass
-    left[np.diag_indices(bodies)] += pencil.body_stiffness
+    left[range(bodies), range(bodies)] += pencil.body_stiffness
     left[bodies:, :bodies] += pencil.volumes[:, :bodies]
     left[:bodies, bodies:] += pencil.volumes[:, :bodies].T
     scale = 1.0 / np.sqrt(np.abs(np.diag(left)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,7 +41,8 @@ class Mode:
 
     Attributes:
         eigenvalue: λ = ω².
-        displacement: surface unknowns ζ.
+        values: own surface unknowns ζ of this process.
+        displaced: returns ζ.
         shaped: returns ψ, its constant included.
         residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
         body_amplitudes: the body part of ζ, on every process.
@@ -49,13 +50,19 @@ class Mode:
     """
 
     eigenvalue: float
-    displacement: PETSc.Vec
+    values: np.ndarray
+    displaced: Callable[[], PETSc.Vec]
     shaped: Callable[[], PETSc.Vec]
     residual: float
     body_amplitudes: np.ndarray
     energy: np.ndarray
 
-    @property
+    @cached_property
+    def displacement(self) -> PETSc.Vec:
+        """ζ."""
+        return self.displaced()
+
+    @cached_property
     def potential(self) -> PETSc.Vec:
         """ψ, its constant included."""
         return self.shaped()
@@ -217,17 +224,21 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
         place = number % _AT_ONCE
         displacements, energies = shaped(number - place)
 
+        def displacement() -> PETSc.Vec:
+            vector = pencil.coupling.createVecRight()
+            vector.array[:] = displacements[:, place]
+            return vector
+
         def potential() -> PETSc.Vec:
             vector = pencil.coupling.createVecLeft()
             vector.array[:] = potentials(number - place)[:, place]
             return vector
 
-        displacement = pencil.coupling.createVecRight()
-        displacement.array[:] = displacements[:, place]
         return Mode(
             eigenvalue=float(eigenvalues[number]),
-            displacement=displacement,
-            shaped=cache(potential),
+            values=displacements[:, place],
+            displaced=displacement,
+            shaped=potential,
             residual=float(found.residuals[number]),
             body_amplitudes=displacements[: pencil.body_size, place],
             energy=energies[:, place],
@@ -386,7 +397,8 @@ def completed_mode(
     pencil.stiffness.mult(displacement, force)
     return Mode(
         eigenvalue=eigenvalue,
-        displacement=displacement,
+        values=displacement.array_r,
+        displaced=lambda: displacement,
         shaped=lambda: potential,
         residual=residual_of(pencil, solver, eigenvalue, displacement, potential, force),
         body_amplitudes=pencil.body_values(displacement),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -37,11 +37,13 @@ class VolumeConstraint:
         layer: index of the layer.
         density: ρ of it.
         volume: volume that a unit of each surface unknown takes from the layer, length n.
+        largest: volume that a unit of any of them moves in and out of a layer at most.
     """
 
     layer: int
     density: float
     volume: PETSc.Vec
+    largest: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,10 +147,10 @@ class CoupledPencil(Generic[Unknowns]):
 
         Pitch displaces none; values within round-off are set to zero.
         """
-        if not len(self.free_rigid):
-            return np.empty((0, len(self.constraints)))
+        if not len(self.free_rigid) or not self.constraints:
+            return np.empty((len(self.free_rigid), len(self.constraints)))
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
-        largest = self.coupling.norm(PETSc.NormType.NORM_1)
+        largest = self.constraints[0].largest
         table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
         return np.where(np.abs(table) > _NO_VOLUME * largest, table, 0.0)
 
@@ -158,8 +160,7 @@ class CoupledPencil(Generic[Unknowns]):
         enter (collective)."""
         if not self.rigid_volumes.size:
             return np.eye(len(self.constraints)), 0
-        _, sizes, turn = np.linalg.svd(self.rigid_volumes)
-        return turn.T, int(np.sum(sizes > _NO_VOLUME * sizes[0]))
+        return _combinations(tuple(map(tuple, self.rigid_volumes.tolist())))
 
     @property
     def zero_mode_count(self) -> int:
@@ -173,6 +174,12 @@ class CoupledPencil(Generic[Unknowns]):
         comm = vector.comm.tompi4py()
         local = vector.array_r[: self.body_size].copy() if comm.rank == 0 else None
         return np.asarray(comm.bcast(local, root=0))
+
+
+@lru_cache(maxsize=16)
+def _combinations(rigid_volumes: tuple[tuple[float, ...], ...]) -> tuple[np.ndarray, int]:
+    _, sizes, turn = np.linalg.svd(np.array(rigid_volumes))
+    return turn.T, int(np.sum(sizes > _NO_VOLUME * sizes[0]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -278,7 +285,8 @@ def _volume_constraints(
         volume = coupling.createVecRight()
         coupling.multTranspose(ones, volume)
         if _is_new(volume, constraints, largest):
-            constraints.append(VolumeConstraint(layer=layer, density=liquid.densities[layer], volume=volume))
+            density = liquid.densities[layer]
+            constraints.append(VolumeConstraint(layer=layer, density=density, volume=volume, largest=largest))
         else:
             free.append(first_dof(liquid, layer, coupling.getOwnershipRange(), coupling.comm.tompi4py()))
     return tuple(constraints), np.concatenate(free)

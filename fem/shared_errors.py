@@ -43,24 +43,20 @@ class SharedErrors:
         Args:
             displacements: ζ of modes at unit generalized mass, shape (n, modes).
         """
-        beside = self._beside(displacements) > _UNKNOWN
+        parts = self._momenta.T @ displacements
+        rest = displacements - self._directions @ parts
+        beside = np.einsum("im,im->m", rest, self._answer.added_mass @ rest) > _UNKNOWN
         if self._grows() and beside.any():
             self._add(displacements[:, beside])
+            parts = self._momenta.T @ displacements
             beside[:] = False
-        parts = self._momenta.T @ displacements
         found = np.tensordot(parts.T.astype(_PRECISION), self._table, 1)
         if beside.any():
-            found[beside] += self._rows((displacements - self._directions @ parts)[:, beside])
+            found[beside] += self._rows(rest[:, beside])
         dim = self._liquid.tank.mesh.topology.dim
         energies = [np.einsum("mpc,mpc->mc", part, part) for part in np.split(found, dim * self._starts, axis=1)]
         errors: np.ndarray = self._densities * missing_energy(*(one.astype(float) for one in energies))
         return errors
-
-    def _beside(self, displacements: np.ndarray) -> np.ndarray:
-        """ζᵀM_aζ beside the directions, shape (modes,)."""
-        rest = displacements - self._directions @ (self._momenta.T @ displacements)
-        energy: np.ndarray = np.einsum("im,im->m", rest, self._answer.added_mass @ rest)
-        return energy
 
     def _add(self, displacements: np.ndarray) -> None:
         """Make the motions beside the directions some of them."""

@@ -114,11 +114,10 @@ def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], n
     inverse = np.linalg.inv(jacobian).transpose(0, 2, 1)
     inverse *= np.sqrt(np.abs(np.linalg.det(jacobian)))[:, None, None]
     table, starts = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
-    dim, polynomials, functions = table.shape
 
     def coefficients(values: np.ndarray) -> np.ndarray:
-        reference = values @ table.reshape(-1, functions).T
-        reference = reference.reshape(*values.shape[:2], dim, polynomials)
+        # One product of matrices for all potentials and cells.
+        reference = np.tensordot(values, table, (2, 2))
         return np.einsum("cab,mcbj->mcaj", inverse, reference)
 
     return coefficients, starts

@@ -7,9 +7,12 @@ from the last shapes kept.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.dofs import Dof
 
 _ORDER = 7.0
 
@@ -30,9 +33,14 @@ def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenval
     for body in bodies:
         last = first + body.size
         parts = body.stiffness * amplitudes[:, first:last] ** 2 / eigenvalues[:, None]
-        errors += _tail(parts[:, [dof.is_elastic for dof in body.dofs]])
+        errors += _tail(parts[:, _elastic(body.dofs)])
         first = last
     return errors
+
+
+@lru_cache(maxsize=16)
+def _elastic(dofs: tuple[Dof, ...]) -> list[int]:
+    return [number for number, dof in enumerate(dofs) if dof.is_elastic]
 
 
 def _tail(parts: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
+from functools import cached_property
 from typing import Any, TypeAlias
 
 from hydroelastic.output.digits import number, per_cent, with_certain_digits
@@ -224,11 +225,16 @@ class Group:
         Args:
             record: one record of the group itself. What a mapping lacks is left out.
         """
+        of_mapping = isinstance(record, Mapping)
         return {
             part.key: _evaluated(part, record)
-            for part in self.parts
-            if (isinstance(part, Group) or part.in_summary) and not part.is_missing(record)
+            for part in self._in_summary
+            if not of_mapping or not part.is_missing(record)
         }
+
+    @cached_property
+    def _in_summary(self) -> tuple[Quantity | Group, ...]:
+        return tuple(part for part in self.parts if isinstance(part, Group) or part.in_summary)
 
     def places(
         self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()

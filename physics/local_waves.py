@@ -7,6 +7,7 @@ counts the modes below ω well enough to choose a mesh; the a-posteriori estimat
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi, tanh
 
 from hydroelastic.physics.beam_parts import Section
@@ -90,6 +91,7 @@ def _layers_at(tank: Tank, level: StillLevel) -> tuple[tuple[float, float], ...]
     return tuple((tank.layers[number].density, tank.layers[number].depth) for number in (level.below, level.above))
 
 
+@lru_cache(maxsize=16)
 def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
     """Approximate number of modes below λ."""
     # Pieces of one dispersion have one wavenumber.

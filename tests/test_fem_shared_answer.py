@@ -69,7 +69,7 @@ def test_a_point_of_a_family_is_the_whole_problem(tanks: Tanks, liquids: SharedL
         for below, (lower, upper) in enumerate(pairwise(whole.eigenvalues), 1):
             for shift in (lower + 1e-3 * (upper - lower), upper - 1e-3 * (upper - lower)):
                 assert count_below(pencil, float(shift)) == below
-        errors = answer.cell_errors(np.column_stack([mode.displacement.array_r for mode in found.modes]))
+        errors = answer.cell_errors(np.column_stack([mode.values for mode in found.modes]))
         direct = cell_errors(pencil.liquid, [mode.potential for mode in whole.modes])
         assert errors.sum(axis=1) == pytest.approx(direct.sum(axis=1), rel=1e-2)
 
@@ -117,3 +117,16 @@ def test_directions_of_a_point_do_not_change_the_estimates_of_another(tanks: Tan
     assert first.counted
     # To the last digit: a sweep that goes on after an interruption writes the same files.
     assert np.array_equal(again.relative_errors, first.relative_errors, equal_nan=True)
+
+
+def test_a_tank_of_the_sample_is_solved_once_and_is_its_point(tanks: Tanks, liquids: SharedLiquids) -> None:
+    sampled, between = (tank_of(tanks, rigidity, 3.0) for rigidity in RIGIDITIES[:2])
+    known = solve_tank(sampled, tolerance=TOLERANCE, modes=4, liquids=liquids)
+    assert known is solve_tank(sampled, tolerance=TOLERANCE, modes=4, liquids=liquids)
+    assert liquids.known(between, TOLERANCE, 4) is None
+    # What was asked for counts too.
+    assert liquids.known(sampled, TOLERANCE, 5) is None
+    again = solve_tank(sampled, tolerance=TOLERANCE, modes=4, liquids=replace(liquids, solved={}))
+    assert again is not known
+    assert again.modes.eigenvalues == pytest.approx(known.modes.eigenvalues, rel=1e-12)
+    assert again.relative_errors == pytest.approx(known.relative_errors, rel=1e-2, nan_ok=True)

@@ -40,7 +40,7 @@ SWEEPS = {
     ),
 }
 _DEGREES = (8, 10)
-_TOLERANCES = (1e-6, 1e-7)
+_TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7)
 _JOBS: tuple[Variant, ...] = ("one process", "two processes")
 
 

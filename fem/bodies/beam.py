@@ -54,7 +54,7 @@ class BeamModel(BodyModel):
             motions=np.eye(len(numbers)),
             stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
             bending_stiffness=bending,
-            mass=part * shapes.mass[np.ix_(numbers, numbers)],
+            mass=part * shapes.mass[numbers][:, numbers],
         )
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:

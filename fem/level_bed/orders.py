@@ -75,7 +75,7 @@ class OrderSolution:
         surface = np.zeros(line.size)
         if self.pencil.surfaces:
             water = line.unknowns_of(np.setdiff1d(line.cells, covered_elements(line)))
-            surface[water] = mode.displacement.array_r[self.pencil.body_size :]
+            surface[water] = mode.values[self.pencil.body_size :]
         elevation = line.table(along).T @ surface
         position = 0
         covered = np.zeros(len(along), dtype=bool)

@@ -229,7 +229,7 @@ def _liquid_errors(
     finer = _liquid(tank, resolution.finer(), one.parity)
     embeddings = [fine.embedding(coarse) for fine, coarse in zip(finer.spaces, liquid.spaces, strict=True)]
     moving = [body for body in bodies if body.body.size]
-    values = np.array([mode.displacement.array_r for mode in modes]).reshape(len(modes), one.pencil.size)
+    values = np.array([mode.values for mode in modes]).reshape(len(modes), one.pencil.size)
     *amplitudes, heights = np.split(values, np.cumsum([body.body.size for body in moving]), axis=1)
     loads = np.zeros((len(modes), finer.size))
     for body, own in zip(moving, amplitudes, strict=True):

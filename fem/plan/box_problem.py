@@ -42,7 +42,7 @@ class BoxProblem(ClassProblem):
         height = np.zeros(liquid.size)
         if self.pencil.surfaces:
             columns = water_columns(water_masses(liquid, self.plates))
-            height[columns] = mode.displacement.array_r[self.pencil.body_size :]
+            height[columns] = mode.values[self.pencil.body_size :]
         elevation = sign * np.einsum("ip,ij,jp->p", tables[0], height.reshape(liquid.shape), tables[1], optimize=True)
         position = 0
         for plate in self.plates:

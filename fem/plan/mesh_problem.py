@@ -84,7 +84,7 @@ class MeshProblem(ClassProblem):
         elevation = np.zeros(len(x))
         if self.pencil.surfaces:
             height = np.zeros(space.size)
-            height[water_unknowns(space)] = mode.displacement.array_r[self.pencil.body_size :]
+            height[water_unknowns(space)] = mode.values[self.pencil.body_size :]
             water = ~np.any(under, axis=0) if under else np.full(len(x), True)
             cells = space.liquid.tank.cells(FREE_SURFACE)
             elevation[water] = sign[water] * _evaluated(space, height[:, None], folded[water], cells)[:, 0]

@@ -205,7 +205,8 @@ def _completed(
     energy = problem.stiffness * amplitudes**2
     return Mode(
         eigenvalue=float(limits[place]),
-        displacement=displacement,
+        values=displacement.array_r,
+        displaced=lambda: displacement,
         shaped=lambda: potential,
         residual=float(np.sqrt(found.errors[place])),
         body_amplitudes=amplitudes,

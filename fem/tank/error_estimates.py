@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from math import ceil, log
 
 import numpy as np
+from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from petsc4py import PETSc
 
@@ -118,7 +120,7 @@ def frequency_errors(
 def _cell_errors(pencil: CoupledPencil, modes: list[Mode]) -> np.ndarray:
     """See `cell_errors` (collective)."""
     if modes and isinstance(pencil.answer, SharedAnswer) and pencil.answer.cell_errors is not None:
-        return pencil.answer.cell_errors(np.column_stack([mode.displacement.array_r for mode in modes]))
+        return pencil.answer.cell_errors(np.column_stack([mode.values for mode in modes]))
     return cell_errors(pencil.liquid, [mode.potential for mode in modes])
 
 
@@ -130,7 +132,13 @@ def _cells_at_tips(
     corners = np.empty((0, 2))
     if resolution.tip_size is not None:
         corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
-    return cells_at(mesh.mesh, corners)
+    return _cells_at(mesh.mesh, tuple(map(tuple, corners.tolist())))
+
+
+@lru_cache(maxsize=4)
+def _cells_at(mesh: Mesh, corners: tuple[tuple[float, ...], ...]) -> np.ndarray:
+    """As `cells_at`: tanks that share a liquid share its mesh."""
+    return cells_at(mesh, np.array(corners))
 
 
 def _away_and_at(at_tips: np.ndarray, cells: np.ndarray, comm: MPI.Comm) -> tuple[np.ndarray, np.ndarray]:

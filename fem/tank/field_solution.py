@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -208,7 +209,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     bodies = whole_bodies(tank, shapes)
     extensions = [extension(tank, bodies, part.parity) for part in parts]
     shares = [_shares(one) for one in extensions]
-    amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
+    of_parts = [part.modes.elastic_amplitudes @ one.T for part, one in zip(parts, extensions, strict=True)]
+    amplitudes = [of_parts[number][index] for number, index in origins]
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
@@ -259,23 +261,31 @@ def _extended(mode: Mode, extension: np.ndarray, shares: np.ndarray) -> Mode:
 def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Return the matrix from the body unknowns of a part to those of the whole tank, each at unit generalized mass,
     shape (unknowns of the whole tank, unknowns of the part)."""
-    size = sum(body.size for body in bodies)
     if parity is None:
-        return np.eye(size)
-    offsets = np.cumsum([0, *(body.size for body in bodies)])
+        return np.eye(sum(body.size for body in bodies))
+    twins = tuple((body, twin_of(tank, body)) for body in left_bodies(tank))
+    return _extension(tuple(body.parities for body in bodies), twins, parity)
+
+
+@lru_cache(maxsize=64)
+def _extension(
+    shapes: tuple[tuple[Parity, ...], ...], twins: tuple[tuple[int, int], ...], parity: Parity
+) -> np.ndarray:
+    offsets = np.cumsum([0, *map(len, shapes)])
     columns = []
-    for body in left_bodies(tank):
-        twin = twin_of(tank, body)
-        for number, own in enumerate(bodies[body].parities):
+    for body, twin in twins:
+        for number, own in enumerate(shapes[body]):
             if twin == body and own != parity:
                 continue
-            column = np.zeros(size)
+            column = np.zeros(offsets[-1])
             column[offsets[body] + number] = np.sqrt(0.5)
             if twin != body:
                 # In the mirror image odd shapes change their sign.
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
-    return np.array(columns).reshape(len(columns), size).T
+    found = np.array(columns).reshape(len(columns), offsets[-1]).T
+    found.flags.writeable = False
+    return found
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:

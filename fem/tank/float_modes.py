@@ -66,6 +66,8 @@ class _Motion:
 
 def _restored(tank: Tank, bodies: tuple[Body, ...]) -> list[_Motion]:
     """Return the motions of floats with restoring force, with their indices among the unknowns of all bodies."""
+    if not tank.rigid:
+        return []
     offsets = np.cumsum([0, *(body.size for body in bodies)])
     return [
         _Motion(

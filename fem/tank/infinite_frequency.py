@@ -164,7 +164,7 @@ def infinite_frequency_limit(
         tank,
         tolerance,
         solve,
-        liquids.first_of_limit(first),
+        first,
         rounds=_MOST_ATTEMPTS,
         infinite_frequency=True,
         remesh=remesh,

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
@@ -21,11 +22,19 @@ from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, part_models
-from hydroelastic.fem.tank.resolution import Resolution, initial_resolution, sought_modes
+from hydroelastic.fem.tank.resolution import (
+    Resolution,
+    infinite_frequency_resolution,
+    initial_resolution,
+    sought_modes,
+)
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins
 from hydroelastic.physics.tank import Tank
+
+if TYPE_CHECKING:
+    from hydroelastic.fem.tank.solve import TankSolution
 
 # A dense answer of the liquid that takes more memory is not kept, bytes.
 _MOST_MEMORY = 200e6
@@ -39,9 +48,13 @@ class Liquids:
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
 
-    def first_of_limit(self, resolution: Resolution) -> Resolution:
-        """Return the resolution of the first attempt at the infinite-frequency limit, from the one planned for it."""
-        return resolution
+    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
+        """Return the solution of a tank that is solved already."""
+        return None
+
+    def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
+        """Return the resolution of the first attempt at the infinite-frequency limit."""
+        return infinite_frequency_resolution(tank, tolerance, expected_tones(tank))
 
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False
@@ -73,14 +86,16 @@ class SharedLiquids(Liquids):
 
     Attributes:
         of_field: elements and dry modes of the first attempt, for all of them.
-        of_limit: as fine as the first attempt must be for the infinite-frequency limit of all of them.
+        of_limit: the resolution of the first attempt at the infinite-frequency limit, for all of them.
         growing: whether what is known of the liquid grows with each tank that is solved; then results depend on those
             before.
+        solved: solutions by tank in SI units, tolerance and number of modes.
     """
 
     of_field: Resolution
     of_limit: Resolution
     growing: bool = True
+    solved: dict[tuple[Tank, float, int], TankSolution] = field(default_factory=dict)
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -89,9 +104,13 @@ class SharedLiquids(Liquids):
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return sought_modes(tank, modes=modes, tones=tones, motions=motions).with_elements(self.of_field)
 
-    def first_of_limit(self, resolution: Resolution) -> Resolution:
-        """See `Liquids.first_of_limit`."""
-        return finest((resolution, self.of_limit))
+    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
+        """See `Liquids.known`."""
+        return self.solved.get((physical, tolerance, modes))
+
+    def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
+        """See `Liquids.first_of_limit` and `first`."""
+        return self.of_limit
 
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False

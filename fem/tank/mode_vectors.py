@@ -32,7 +32,7 @@ def mode_vectors(solution: TankSolution) -> ModeVectors:
         zip((f"body {n + 1}" for n in range(len(field.bodies))), np.split(entries, stops, axis=1), strict=False)
     )
     levels = [level for level in solution.tank.levels if level.moves and level.is_open]
-    shapes = [modes.completed(place).displacement.array_r for place in range(count)] if levels else []
+    shapes = [modes.completed(place).values for place in range(count)] if levels else []
     for level in levels:
         blocks |= {name: values * scale for name, values in _waves(solution, level, shapes)}
     beams = solution.tank.elastic

@@ -74,9 +74,9 @@ def released_modes(tank: Tank, count: int) -> ReleasedModes | None:
     body = body_model(tank, 0).moving(count, None)
     mass = body.mass + beam.length * added_mass
     held, free = np.flatnonzero(body.stiffness), np.flatnonzero(body.stiffness == 0.0)
-    follow = -np.linalg.solve(mass[np.ix_(free, free)], mass[np.ix_(free, held)])
+    follow = -np.linalg.solve(mass[free][:, free], mass[free][:, held])
     roots = np.sqrt(body.stiffness[held])
-    condensed = (mass[np.ix_(held, held)] + mass[np.ix_(held, free)] @ follow) / np.outer(roots, roots)
+    condensed = (mass[held][:, held] + mass[held][:, free] @ follow) / np.outer(roots, roots)
     inverses, vectors = np.linalg.eigh(condensed)
     seen = np.flatnonzero(inverses > HIDDEN * inverses[-1])[::-1]
     values = 1.0 / inverses[seen]

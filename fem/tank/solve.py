@@ -16,7 +16,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
-from hydroelastic.fem.bodies.registry import expected_tones, toned_bodies
+from hydroelastic.fem.bodies.registry import toned_bodies
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.modes import Mode, ModeSet
@@ -35,7 +35,6 @@ from hydroelastic.fem.tank.liquids import ANEW, Liquids, SharedLiquids, finest
 from hydroelastic.fem.tank.resolution import (
     MOST_MODES_TO_TONE,
     Resolution,
-    infinite_frequency_resolution,
     initial_resolution,
     sharpest_exponent,
     workable_tolerance,
@@ -139,6 +138,9 @@ def solve_tank(
         MeshError: if the mesh does not fit the scene.
         EigenSolverError: if the eigen-solver fails.
     """
+    known = liquids.known(physical, tolerance, modes)
+    if known is not None:
+        return known
     comm = comm or MPI.COMM_WORLD
     watch = Stopwatch()
     with watch.stage("plan"):
@@ -157,7 +159,7 @@ def solve_tank(
 
     @cache
     def limit() -> InfiniteFrequencyLimit:
-        coarsest = infinite_frequency_resolution(tank, workable, expected_tones(tank)) if user_mesh is None else first
+        coarsest = liquids.first_of_limit(tank, workable) if user_mesh is None else first
         return infinite_frequency_limit(
             comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, liquids=liquids, report=report
         )
@@ -323,14 +325,16 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
         modes: the same.
     """
     scaled = [tank.scaled() for tank in tanks]
-    limits = [
-        infinite_frequency_resolution(tank, workable_tolerance(tolerance, tank.depth), expected_tones(tank))
-        for tank in scaled
-    ]
+    limits = [ANEW.first_of_limit(tank, workable_tolerance(tolerance, tank.depth)) for tank in scaled]
     fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]
     liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
     liquids.of_field = finest([one.resolution for one in solved])
     liquids.growing = False
+    liquids.solved = {
+        (one.physical, tolerance, modes): one
+        for one in solved
+        if one.resolution == liquids.first(one.tank, tolerance, modes)
+    }
     return liquids

@@ -8,7 +8,7 @@ them.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -61,7 +61,20 @@ def beam_shapes(beam: Beam, count: int) -> BeamShapes:
 
 @lru_cache(maxsize=16)
 def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
-    guided, length = beam.ends == "guided", beam.length
+    alike = _alike_shapes(beam.ends == "guided", beam.length, count)
+    return replace(
+        alike,
+        dofs=beam.dofs(count),
+        moments=lambda x: beam.flexural_rigidity * alike.moments(x),
+        shears=lambda x: beam.flexural_rigidity * alike.shears(x),
+        bending=beam.flexural_rigidity * alike.bending,
+        mass=beam.mass_per_length * alike.mass,
+    )
+
+
+@lru_cache(maxsize=16)
+def _alike_shapes(guided: bool, length: float, count: int) -> BeamShapes:
+    """The shapes of all uniform beams of one length, with EI = 1 and m = 1."""
     roots = _roots(guided, count)
 
     def deflections(x: Array) -> Array:
@@ -74,14 +87,14 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
         return np.asarray(np.array(values).reshape(count, len(x)) / length**derivative, dtype=np.float64)
 
     return BeamShapes(
-        dofs=beam.dofs(count),
+        dofs=(),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
         deflection=_AllAtOnce(deflections),
         tabulated=tabulated,
-        moments=lambda x: beam.flexural_rigidity * tabulated(x, 2),
-        shears=lambda x: beam.flexural_rigidity * tabulated(x, 3),
-        bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
-        mass=np.diag(np.full(count, beam.mass_per_length * length)),
+        moments=lambda x: tabulated(x, 2),
+        shears=lambda x: tabulated(x, 3),
+        bending=(roots / length) ** 4 * length,
+        mass=np.eye(count) * length,
         wavenumber=float(roots.max(initial=0.0)) / length,
     )
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # With fewer points the answer of the liquid to all loads would cost more than it saves.
 _FEWEST = 4
 # One more scene of the sample for so many points: of few points further directions cost less than further solutions.
-_FOR_EACH = 16
+_FOR_EACH = 32
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ from tanks import Tanks
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.physical import physical_tank
 
 POINT = (1.2, 0.6)
 STIFFNESS = [4e4, 1.5e4, 2e3]
@@ -41,6 +42,15 @@ def scene(attachments: list[dict[str, Any]]) -> TankScene:
 def squares(solution: TankSolution) -> np.ndarray:
     """Dimensionless ω² of the modes that were asked for."""
     return np.array([mode.eigenvalue for mode in solution.asked])
+
+
+def test_a_spring_across_that_sway_follows_leaves_the_roll_alone() -> None:
+    """Sway without force turns about the point: c55 + ky² − (ky)²/k."""
+    held, free = (
+        physical_tank(scene(springs)).floats[0].roll_stiffness
+        for springs in ([{"at": [4.0, 0.6], "stiffness": [0.0, 1.5e4, 0.0]}], [])
+    )
+    assert held == pytest.approx(free, rel=1e-12)
 
 
 def test_springs_add_to_the_stiffness_of_gravity(tanks: Tanks) -> None:

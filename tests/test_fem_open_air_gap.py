@@ -87,6 +87,21 @@ def test_the_free_top_of_two_liquids_rises_less_than_the_interface(waves_from: s
     assert found == pytest.approx(ratio * np.exp(1j * towards * k * (x - crest)), rel=1e-10)
 
 
+def test_the_edge_of_a_limp_plate_stays_on_the_water() -> None:
+    plate = {"kind": "plate", "outline": "disc", "radius": 1.0, "mass_per_area": 1.0, "flexural_rigidity": 10.0}
+    edge = {"at": [1.0, 1.0]}
+    waves = band(2.0, edge, edge | {"body": 1}) | {"points": [edge | {"at": [1.0, 0.0]}]}
+    (table,) = solved(plate | {"poisson_ratio": 0.3}, math.inf, waves).spectrum
+    # At a free edge there is no moment, whose relative error would be infinite.
+    assert {one for one in table.quantities if "point" in one} == {"point 1 up", "point 1 acceleration up"}
+    fixed, moving = (
+        np.abs(table.transfer[:, table.quantities.index(f"relative elevation {number}")]) for number in (1, 2)
+    )
+    # Its mass and its bending are a hundredth of the water's; it follows a wave of nearly unit height.
+    assert np.abs(fixed - 1.0).max() < 2e-2
+    assert moving.max() < 2e-2
+
+
 @pytest.mark.slow
 def test_water_around_a_deep_cylinder_rises_as_around_one_on_the_bed() -> None:
     """e^{ikx} − Σ εₙ iⁿ Jₙ′(ka)/Hₙ′(ka) Hₙ(kr) cos nθ of MacCamy and Fuchs, up to e^{−kd} = 6e-6."""

@@ -8,8 +8,10 @@ from scipy.linalg import eigh
 from tanks import Tanks
 
 from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.output.tank.records import float_values
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.physical import physical_tank
 
 POINT = (1.2, 0.6)
 STIFFNESS = [4e4, 1.5e4, 2e3]
@@ -41,6 +43,24 @@ def scene(attachments: list[dict[str, Any]]) -> TankScene:
 def squares(solution: TankSolution) -> np.ndarray:
     """Dimensionless ω² of the modes that were asked for."""
     return np.array([mode.eigenvalue for mode in solution.asked])
+
+
+def test_masses_of_float_modes_are_those_that_their_frequencies_balance(tanks: Tanks) -> None:
+    """(m + a) ω² = c33 of heave and (I + a) ω² = c55 of roll, in SI units of a tank that is not of unit length."""
+    found = float_values(tanks.solve(scene([])), 0, None)
+    heave, roll = (next(mode for mode in found["modes"] if mode["motion"] == name) for name in ("heave", "roll"))
+    whole = found["mass"] + heave["added_mass"], found["moment_of_inertia"] + roll["added_mass"]
+    assert whole[0] * heave["omega"] ** 2 == pytest.approx(found["heave_stiffness"], rel=1e-9)
+    assert whole[1] * roll["omega"] ** 2 == pytest.approx(found["roll_stiffness"], rel=1e-9)
+
+
+def test_a_spring_across_that_sway_follows_leaves_the_roll_alone() -> None:
+    """Sway without force turns about the point: c55 + ky² − (ky)²/k."""
+    held, free = (
+        physical_tank(scene(springs)).floats[0].roll_stiffness
+        for springs in ([{"at": [4.0, 0.6], "stiffness": [0.0, 1.5e4, 0.0]}], [])
+    )
+    assert held == pytest.approx(free, rel=1e-12)
 
 
 def test_springs_add_to_the_stiffness_of_gravity(tanks: Tanks) -> None:

@@ -18,8 +18,9 @@ def test_half_a_sphere_has_its_volume_and_moments() -> None:
 
 
 def test_a_ring_has_its_volume_and_moments() -> None:
-    wetted = solid_of_revolution("cylinder", radius=3.0, inner_radius=2.0, draught=1.5).moments(0.0)
-    area = pi * (3.0**2 - 2.0**2)
+    ring = solid_of_revolution("cylinder", radius=3.0, inner_radius=2.0, draught=1.5)
+    wetted, area = ring.moments(0.0), pi * (3.0**2 - 2.0**2)
+    assert ring.waterplane(2.0, 3.0) == pytest.approx((area, 0.25 * pi * (3.0**4 - 2.0**4)), rel=1e-12)
     assert wetted.area == pytest.approx(1.5 * area, rel=1e-12)
     assert wetted.first == pytest.approx((0.0, -0.5 * 1.5**2 * area), rel=1e-12)
     assert wetted.second == pytest.approx((1.5 * 0.25 * pi * (3.0**4 - 2.0**4), 1.5**3 / 3.0 * area), rel=1e-12)

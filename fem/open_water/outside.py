@@ -56,12 +56,9 @@ def displacement_at(basin: OpenBasin, body: Body, index: int, point: tuple[float
     x, y = (point[0] - basin.origin) / length, point[1] / length
     plate = basin.tank.bodies[index]
     if isinstance(plate, RoundPlate):
-        shapes, order = RoundShapes(plate, body.size), basin.tank.geometry.order
-        # At θ = π shapes have the factor (−1)ⁿ, and x decreases outwards.
-        deflection, slope = (
-            shapes.values(np.array([abs(x)]), derivative)[:, 0] * (1.0 if x >= 0.0 else (-1.0) ** (order + derivative))
-            for derivative in (0, 1)
-        )
+        # What holds a plate is on its axis.
+        shapes = RoundShapes(plate, body.size)
+        deflection, slope = (shapes.values(np.zeros(1), derivative)[:, 0] for derivative in (0, 1))
         return np.array([deflection, np.zeros(body.size), slope])
     if plate.is_elastic:
         beam, piece = basin.tank.beams[index], basin.tank.piece_of(index)

@@ -163,7 +163,7 @@ def points_of_plates(
     tank: Tank, request: SpectrumRequest, omegas: Floats, plates: list[PlateDeflection]
 ) -> Iterator[tuple[str, str, np.ndarray, np.ndarray]]:
     """Yield name, unit, transfer function and its error, shape (n,), of deflection, moment and strain at points of
-    round plates."""
+    round plates; at their edges no moment."""
     along = {plate.body: plate for plate in plates}
     for number, (index, point) in enumerate(request.points, 1):
         body = tank.bodies[index]
@@ -175,7 +175,9 @@ def points_of_plates(
         yield f"point {number} acceleration up", "m/s²", -(omegas**2) * deflection, omegas**2 * error
         if body.bends and body.flexural_rigidity:
             moment_error = plate.bending_moment_error[:, 0]
-            yield f"point {number} bending moment", "N", plate.bending_moment[:, 0, place], moment_error
+            # At a free edge there is none, of which all is error.
+            if not np.isclose(abs(point[0]), [edge for edge in (body.inner_radius, body.radius) if edge]).any():
+                yield f"point {number} bending moment", "N", plate.bending_moment[:, 0, place], moment_error
             if plate.strain is not None and body.thickness is not None:
                 strained = 0.5 * body.thickness / body.flexural_rigidity
                 yield f"point {number} strain", "1", plate.strain[:, 0, place], strained * moment_error

@@ -125,7 +125,9 @@ class Result:
             raise SceneError(problem)
         return Image.open(io.BytesIO(self.pictures[shown]))
 
-    def save(self, folder: str | Path, *, images: PictureOptions | None = DEFAULT_PICTURES, report: bool = False) -> None:
+    def save(
+        self, folder: str | Path, *, images: PictureOptions | None = DEFAULT_PICTURES, report: bool = False
+    ) -> None:
         """Write the result folder that the command run writes, whole or not at all (collective).
 
         What was asked and could not be drawn is a warning.

@@ -24,7 +24,14 @@ from hydroelastic.scenes.report.page import Part, is_numeric, is_warning
 from hydroelastic.scenes.report.scene_text import scene_text
 from hydroelastic.scenes.run import run_scene
 
-PARTS = ["Answer", "Results", "Comparison with estimates and closed forms", "What was modelled, and why", "Scene", "Cost"]
+PARTS = [
+    "Answer",
+    "Results",
+    "Comparison with estimates and closed forms",
+    "What was modelled, and why",
+    "Scene",
+    "Cost",
+]
 # What is the only thing of its kind is a sentence among the results, not a part of its own.
 ALONE = {
     "open": "There is no comparison with older theories",

@@ -33,7 +33,8 @@ class Sweep(SweepContents):
     def __repr__(self) -> str:
         """Return title, points and status in one line."""
         keys = " × ".join(axis.key for axis in self.solved.grid.axes)
-        return f"<Sweep of {self.solved.scene.title or 'Untitled scene'!r} over {keys}, {len(self.solved.points)} points: {self.status}>"
+        title = self.solved.scene.title or "Untitled scene"
+        return f"<Sweep of {title!r} over {keys}, {len(self.solved.points)} points: {self.status}>"
 
     @cached_property
     def dataset(self) -> xarray.Dataset:

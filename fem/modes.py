@@ -160,7 +160,6 @@ def solve_modes(
     count = _visible(inverses)
     order = order[:count]
     eigenvalues = 1.0 / inverses[order]
-    wanted = count if shapes is None else min(shapes, count)
     displacement, force = pencil.stiffness.createVecs()
     displacements, amplitudes = [], []
     for place, number in enumerate(order):
@@ -179,7 +178,7 @@ def solve_modes(
     return ModeSet(
         eigenvalues=eigenvalues,
         elastic_amplitudes=np.array(amplitudes).reshape(count, pencil.body_size),
-        modes=tuple(completed(place) for place in range(wanted)),
+        modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=converged,
@@ -224,21 +223,11 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
         place = number % _AT_ONCE
         displacements, energies = shaped(number - place)
 
-        def displacement() -> PETSc.Vec:
-            vector = pencil.coupling.createVecRight()
-            vector.array[:] = displacements[:, place]
-            return vector
-
-        def potential() -> PETSc.Vec:
-            vector = pencil.coupling.createVecLeft()
-            vector.array[:] = potentials(number - place)[:, place]
-            return vector
-
         return Mode(
             eigenvalue=float(eigenvalues[number]),
             values=displacements[:, place],
-            displaced=displacement,
-            shaped=potential,
+            displaced=lambda: _filled(pencil.coupling.createVecRight(), displacements[:, place]),
+            shaped=lambda: _filled(pencil.coupling.createVecLeft(), potentials(number - place)[:, place]),
             residual=float(found.residuals[number]),
             body_amplitudes=displacements[: pencil.body_size, place],
             energy=energies[:, place],
@@ -255,6 +244,11 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
         solves=pencil.size,
         projection=projection_errors(inverses, found.residuals) if dense.is_projected else None,
     )
+
+
+def _filled(vector: PETSc.Vec, values: np.ndarray) -> PETSc.Vec:
+    vector.array[:] = values
+    return vector
 
 
 def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:

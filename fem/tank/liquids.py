@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
@@ -33,9 +32,6 @@ from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins
 from hydroelastic.physics.tank import Tank
 
-if TYPE_CHECKING:
-    from hydroelastic.fem.tank.solve import TankSolution
-
 # A dense answer of the liquid that takes more memory is not kept, bytes.
 _MOST_MEMORY = 200e6
 
@@ -48,8 +44,8 @@ class Liquids:
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
 
-    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
-        """Return the solution of a tank that is solved already."""
+    def known(self, physical: Tank, tolerance: float, modes: int) -> object:
+        """Return the solution of a tank that is solved already; ``None`` for others."""
         return None
 
     def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
@@ -95,7 +91,7 @@ class SharedLiquids(Liquids):
     of_field: Resolution
     of_limit: Resolution
     growing: bool = True
-    solved: dict[tuple[Tank, float, int], TankSolution] = field(default_factory=dict)
+    solved: dict[tuple[Tank, float, int], object] = field(default_factory=dict)
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -104,7 +100,7 @@ class SharedLiquids(Liquids):
         tones, motions = expected_tones(tank), ends_of_motions(tank)
         return sought_modes(tank, modes=modes, tones=tones, motions=motions).with_elements(self.of_field)
 
-    def known(self, physical: Tank, tolerance: float, modes: int) -> TankSolution | None:
+    def known(self, physical: Tank, tolerance: float, modes: int) -> object:
         """See `Liquids.known`."""
         return self.solved.get((physical, tolerance, modes))
 

@@ -139,7 +139,7 @@ def solve_tank(
         EigenSolverError: if the eigen-solver fails.
     """
     known = liquids.known(physical, tolerance, modes)
-    if known is not None:
+    if isinstance(known, TankSolution):
         return known
     comm = comm or MPI.COMM_WORLD
     watch = Stopwatch()

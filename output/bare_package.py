@@ -1,19 +1,22 @@
-"""Import a module of a package without the rest of the package: of SciPy's and meshio's many formats one is written."""
+"""Import a part of a library without what else the library imports: of the many formats of SciPy and of meshio one each
+is written."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
+from typing import Any
 
 
 @contextmanager
 def bare_package(name: str) -> Iterator[None]:
-    """Let imports within the block run nothing of a package's own ``__init__.py``; afterwards it can be imported as usual.
+    """Let imports of modules of a package, within the block, leave out its own ``__init__.py``.
 
-    Where it is imported already nothing changes.
+    Afterwards it can be imported as usual. Where it is imported already nothing changes.
 
     Args:
         name: of the package.
@@ -33,3 +36,28 @@ def bare_package(name: str) -> Iterator[None]:
         yield
     finally:
         del sys.modules[name]
+
+
+@contextmanager
+def imported_when_called(module: str, name: str) -> Iterator[None]:
+    """Let imports of a class, within the block, give a function that imports its module when it is called.
+
+    Where the module is imported already nothing changes.
+
+    Args:
+        module: that has the class.
+        name: of the class.
+    """
+    if module in sys.modules:
+        yield
+        return
+    stand_in = sys.modules[module] = ModuleType(module)
+    setattr(stand_in, name, lambda *values, **named: _called(module, name, *values, **named))
+    try:
+        yield
+    finally:
+        del sys.modules[module]
+
+
+def _called(module: str, name: str, *values: Any, **named: Any) -> Any:
+    return getattr(import_module(module), name)(*values, **named)

@@ -18,6 +18,8 @@ def start() -> None:
     end_on_interrupt()
     gc.set_threshold(_BEFORE_FIRST_SEARCH)
     gc.callbacks.append(lambda _phase, _found: gc.set_threshold(_BETWEEN_SEARCHES))
+    # Else it reads the metadata of every installed package.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
     from hydroelastic.scenes.command_line import main

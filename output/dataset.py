@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydroelastic.output.bare_package import bare_package
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.provenance import OF_ALL_SCENES, Summary
 from hydroelastic.output.quantities import Group
@@ -61,7 +62,8 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
     Raises:
         ValueError: if two arrays have different lengths along the same dimension.
     """
-    from scipy.io import netcdf_file
+    with bare_package("scipy.io"):
+        from scipy.io._netcdf import netcdf_file
 
     found = [separate_parts(variable) for variable in variables if variable.values.size]
     if any("complex" in variable.dimensions for variable in found):

@@ -10,6 +10,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from hydroelastic.output.bare_package import bare_package, imported_when_called
+
 Cells: TypeAlias = Sequence[tuple[str, np.ndarray[Any, Any]]]
 """Kind of the cells, as meshio calls it, and numbers of their nodes, shape (cells, nodes)."""
 
@@ -44,13 +46,16 @@ def write_vtu(
         cell_data: arrays of all cells, by name.
         compressed: whether arrays are compressed.
     """
-    # Who writes no fields does without it.
-    import meshio
-
     starts = np.cumsum([len(nodes) for _, nodes in cells])[:-1]
     of_blocks = {name: np.split(values, starts) for name, values in (cell_data or {}).items()}
-    mesh = meshio.Mesh(points, list(cells), point_data=dict(point_data), cell_data=of_blocks)
-    meshio.write(path, mesh, compression="zlib" if compressed else None)
+    with bare_package("meshio"):
+        # It prints warnings by rich, of which there are none here.
+        with imported_when_called("rich.console", "Console"):
+            from meshio._mesh import Mesh
+            from meshio.vtu._vtu import write
+
+        mesh = Mesh(points, list(cells), point_data=dict(point_data), cell_data=of_blocks)
+        write(path, mesh, compression="zlib" if compressed else None)
     path.write_bytes(_ARRAY.sub(_with_unit, path.read_bytes()))
 
 

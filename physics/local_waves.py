@@ -6,14 +6,17 @@ counts the modes below ω well enough to choose a mesh; the a-posteriori estimat
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from math import pi, tanh
+from math import exp, log, pi, tanh
 
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
-_WIDEST = 1e12  # Upper bound of dimensionless wavenumbers.
+# Bounds of dimensionless wavenumbers: waves longer than a million tank lengths are left out.
+_LEAST, _LARGEST = 1e-6, 1e12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,19 +51,10 @@ class LevelPiece:
         return stiffness / (self.beam.mass_per_length + liquid)
 
     def wavenumber(self, squared_frequency: float) -> float:
-        """The wavenumber k at λ; zero where even the longest wave has a larger λ."""
-        # Waves longer than a million tank lengths are left out.
-        shortest = 1e-6
-        if self.squared_frequency(shortest) >= squared_frequency:
+        """The wavenumber k at λ, to 1e-9 of it; zero where even the longest wave has a larger λ."""
+        if self.squared_frequency(_LEAST) >= squared_frequency:
             return 0.0
-        high = 1.0
-        while self.squared_frequency(high) < squared_frequency and high < _WIDEST:
-            high *= 4.0
-        if high >= _WIDEST:
-            return _WIDEST
-        from scipy.optimize import brentq  # slow to import, so only when used
-
-        return float(brentq(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high))
+        return _where_reached(self.squared_frequency, squared_frequency, (_LEAST, _LARGEST), 1e-9)
 
 
 def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
@@ -102,13 +96,13 @@ def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> flo
 
 def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:
     """Approximate λ of a mode, counted from 1; an overestimate by about one mode."""
-    low, high = 1e-12, 1.0
     # End effects shift modes upwards.
-    wanted = number + 1
-    while modes_below(pieces, high) < wanted:
-        high *= 4.0
-    while modes_below(pieces, low) > wanted:
-        low /= 256.0
-    from scipy.optimize import brentq
+    return _where_reached(lambda value: modes_below(pieces, value), number + 1.0, (1e-30, 1e60), 1e-6)
 
-    return float(brentq(lambda value: modes_below(pieces, value) - wanted, low, high, rtol=1e-3))
+
+def _where_reached(rising: Callable[[float], float], wanted: float, bounds: tuple[float, float], step: float) -> float:
+    """The first value of a geometric sequence with steps e^step between bounds where a rising function has reached
+    what is wanted; the upper bound where it has not."""
+    low, high = bounds
+    count = round(log(high / low) / step)
+    return low * exp(step * bisect_left(range(count), wanted, key=lambda n: rising(low * exp(step * n))))

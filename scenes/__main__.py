@@ -7,15 +7,19 @@ import traceback
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 
-# New objects after which Python searches for cycles. Imports make some 300 000, hardly any in cycles; with
-# Python's own number, 2 000, the searches take a tenth of the run of a small scene.
+# New objects after which Python searches for cycles. Imports and a small scene make some 150 000, hardly any in cycles;
+# with Python's own number, 2 000, the searches take a tenth of its run.
+_BEFORE_FIRST_SEARCH = 200_000
 _BETWEEN_SEARCHES = 50_000
 
 
 def start() -> None:
     """Run the command line in a process of its own."""
     end_on_interrupt()
-    gc.set_threshold(_BETWEEN_SEARCHES)
+    gc.set_threshold(_BEFORE_FIRST_SEARCH)
+    gc.callbacks.append(lambda _phase, _found: gc.set_threshold(_BETWEEN_SEARCHES))
+    # Else it reads the metadata of every installed package.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
     from hydroelastic.scenes.command_line import main

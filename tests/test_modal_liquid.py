@@ -54,6 +54,10 @@ def test_cosine_cube_sum() -> None:
     n = np.arange(1.0, 200001.0)
     for angle in (0.0, 1e-3, 0.5, 2.0, math.pi, 3.3, 6.0, 7.0, -1.0):
         assert cosine_cube_sum(angle) == pytest.approx(float(np.sum(np.cos(n * angle) / n**3)), abs=2e-11)
+    # Exact: all terms of one sign alternate at π, and at 2π/3 those of multiples of three stand out; a few eps.
+    zeta_3 = cosine_cube_sum(0.0)
+    assert cosine_cube_sum(math.pi) == pytest.approx(-3 / 4 * zeta_3, rel=2e-15)
+    assert cosine_cube_sum(2 * math.pi / 3) == pytest.approx(-4 / 9 * zeta_3, rel=2e-15)
 
 
 @pytest.mark.parametrize("start", [0.0, 1e-4, 1.0, 5.999])

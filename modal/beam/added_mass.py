@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import bernoulli, zeta
 
 from hydroelastic.modal.beam.cosine_moments import cosine_moments, tip_values
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
@@ -14,6 +13,9 @@ from hydroelastic.physics.arrays import FloatArray
 
 _TERMS_PER_WAVE = 4000
 _MOST_TERMS = 1_000_000
+_ZETA_3 = 1.2020569031595942
+# An integrand analytic in |t| < 2π has errors of 5.8⁻²ⁿ on [0, π] with n points.
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 def lid_added_mass(beam: FloatingBeam, index: int = 2) -> float:
@@ -67,8 +69,9 @@ def _jump_series(scaled: FloatingBeam, value: FloatArray) -> float:
 def cosine_cube_sum(angle: float) -> float:
     """Return Σ_{n ≥ 1} cos(nα)/n³ to rounding.
 
-    Its power series ζ(3) − (α²/2)(3/2 − ln α) + Σ_{j ≥ 2} (−1)^j ζ(3−2j) α^{2j}/(2j)! converges like (α/2π)^{2j}, and
-    α is first brought to [0, π].
+    With Σ cos(nt)/n = −ln(2 sin(t/2)), integrated twice, it is on [0, π], to which α is first brought,
+
+        ζ(3) − (α²/2)(3/2 − ln α) + ∫₀^α (α − t) ln((2/t) sin(t/2)) dt.
 
     Args:
         angle: α, rad, any.
@@ -76,18 +79,15 @@ def cosine_cube_sum(angle: float) -> float:
     Returns:
         The sum.
 
-    Source: the expansion of the polylogarithm Li₃ at the unit circle.
+    Source: L. Lewin, "Polylogarithms and Associated Functions", North Holland, 1981, on Clausen's functions.
     """
     folded = math.fmod(abs(angle), 2 * math.pi)
     folded = min(folded, 2 * math.pi - folded)
     if folded == 0:
-        return float(zeta(3))
-    total = float(zeta(3)) - folded**2 / 2 * (1.5 - math.log(folded))
-    numbers = bernoulli(54)
-    for j in range(2, 28):
-        # ζ(3 − 2j) = −B_{2j−2}/(2j − 2).
-        total -= (-1) ** j * numbers[2 * j - 2] / (2 * j - 2) * folded ** (2 * j) / math.factorial(2 * j)
-    return total
+        return _ZETA_3
+    t = folded / 2 * (1 + _POINTS)
+    smooth = folded / 2 * _WEIGHTS @ ((folded - t) * np.log(np.sinc(t / (2 * math.pi))))
+    return float(_ZETA_3 - folded**2 / 2 * (1.5 - math.log(folded)) + smooth)
 
 
 def strip_added_mass(beam: FloatingBeam, index: int = 2) -> float:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigh
 
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
@@ -14,6 +13,7 @@ from hydroelastic.modal.beam.gravity_added_mass import MOST_NODES, wetted_shapes
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.beam.surface_operator import surface_operator
 from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.symmetric_pencil import pencil_modes
 from hydroelastic.physics.arrays import FloatArray
 
 _SHAPES = 24
@@ -81,8 +81,8 @@ def quotients(stiffness: FloatArray, mass: FloatArray, trials: FloatArray) -> Qu
     load = mass @ f
     factor = np.linalg.cholesky(stiffness)
     deflection = np.linalg.solve(factor, load)
-    grammel = eigh(f.T @ load, deflection.T @ deflection, eigvals_only=True)
-    rayleigh = eigh(f.T @ stiffness @ f, f.T @ load, eigvals_only=True)
+    grammel, _ = pencil_modes(f.T @ load, deflection.T @ deflection)
+    rayleigh, _ = pencil_modes(f.T @ stiffness @ f, f.T @ load)
     return QuotientPair(grammel=grammel, rayleigh=rayleigh)
 
 
@@ -119,7 +119,7 @@ def beam_quotients(beam: FloatingBeam, shapes: int = _SHAPES) -> BeamQuotients:
     scale = 1 / np.sqrt(stiffness)
     scaled_mass = mass * np.outer(scale, scale)
     pair = quotients(np.eye(len(scale)), scaled_mass, np.eye(len(scale))[:, : rigid + 1])
-    exact = 1 / eigh(scaled_mass, eigvals_only=True)[::-1]
+    exact = 1 / np.linalg.eigvalsh(scaled_mass)[::-1]
     return BeamQuotients(
         grammel=float(pair.grammel[rigid]),
         rayleigh=float(pair.rayleigh[rigid]),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import eigh
 
 from hydroelastic.modal.beam.cosine_moments import cosine_moments
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
@@ -144,7 +143,7 @@ def _surface_overlap(beam: FloatingBeam, k: FloatArray) -> FloatArray:
 
 def _range_factor(overlap: FloatArray) -> FloatArray:
     """Return U √σ with U √σ √σ Uᵀ = S on the numerical range of S, shape (cosines, rank)."""
-    values, vectors = eigh(overlap)
+    values, vectors = np.linalg.eigh(overlap)
     kept = values > _RANK * len(overlap)
     factor: FloatArray = vectors[:, kept] * np.sqrt(values[kept])
     return factor

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import eigh
 
 from hydroelastic.modal.beam.added_mass import deep_open_constant, lid_added_mass
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
@@ -20,6 +19,7 @@ from hydroelastic.modal.estimate import (
     frequency_from_added_mass,
     without_number,
 )
+from hydroelastic.modal.symmetric_pencil import pencil_modes
 
 
 def rayleigh_lid(beam: FloatingBeam) -> Estimate:
@@ -109,7 +109,7 @@ def pressure_release_tones(beam: FloatingBeam, count: int) -> Tones:
     stiffness = beam.dry_stiffnesses(count)
     mass = pressure_release_added_mass(beam, count) + beam.mass_per_length * np.eye(count)
     # M is well conditioned here, so K x = λ M x keeps the digits of the high tones of a nearly rigid beam.
-    squared, vectors = eigh(np.diag(stiffness), mass)
+    squared, vectors = pencil_modes(np.diag(stiffness), mass)
     rigid = int(np.count_nonzero(stiffness == 0))
     squared, vectors = squared[rigid:], vectors[:, rigid:]
     participation = stiffness[RIGID_SHAPES] * vectors[RIGID_SHAPES] ** 2 / squared

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import beta, betainc
 
 from hydroelastic.modal.beam.dry_modes import free_free_wavenumber
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
@@ -15,7 +14,10 @@ from hydroelastic.physics.arrays import FloatArray
 GRADING = 12
 """Order of the graded substitution: its derivative vanishes like (distance)^(GRADING − 1) at the tips."""
 
-_PEAK = float(0.25 ** (GRADING - 1) / beta(GRADING, GRADING))
+_BETA = math.factorial(GRADING - 1) ** 2 / math.factorial(2 * GRADING - 1)
+"""Euler's B(GRADING, GRADING)."""
+
+_PEAK = 0.25 ** (GRADING - 1) / _BETA
 """Largest spacing in the middle of a segment over the mean one."""
 
 _FEWEST_NODES = 48
@@ -112,13 +114,19 @@ def surface_operator(beam: FloatingBeam, node_counts: list[int]) -> SurfaceOpera
 def _graded_unit(count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return end points (0 or 1), offsets from them, and weights of ``count`` graded nodes on [0, 1]."""
     u = (np.arange(count) + 0.5) / max(count, 1)
-    from_start = betainc(GRADING, GRADING, u)
-    from_end = betainc(GRADING, GRADING, u[::-1])
+    from_start = _incomplete_beta(u)
+    from_end = from_start[::-1]
     second_half = u > 0.5
     anchor = np.where(second_half, 1.0, 0.0)
     offset = np.where(second_half, -from_end, from_start)
-    slope = (u * (1 - u)) ** (GRADING - 1) / beta(GRADING, GRADING)
+    slope = (u * (1 - u)) ** (GRADING - 1) / _BETA
     return anchor, offset, slope / max(count, 1)
+
+
+def _incomplete_beta(u: FloatArray) -> FloatArray:
+    """Return ∫₀ᵘ (t(1 − t))^(p − 1) dt/B(p, p), p = `GRADING`: the chance of p or more of 2p − 1 trials."""
+    trials = 2 * GRADING - 1
+    return np.sum([math.comb(trials, k) * u**k * (1 - u) ** (trials - k) for k in range(GRADING, trials + 1)], axis=0)
 
 
 def _graded_nodes(beam: FloatingBeam, counts: list[int]) -> _Nodes:

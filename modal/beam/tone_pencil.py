@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigh
 
+from hydroelastic.modal.symmetric_pencil import pencil_modes
 from hydroelastic.physics.arrays import FloatArray
 
 
@@ -72,7 +72,7 @@ def solve_tones(pencil: TonePencil) -> Tones:
     basis = _volume_free(volume[kept])
     elastic = basis[np.count_nonzero(kept[: pencil.elastic])]
     reduced_stiffness = (basis * stiffness[kept, None]).T @ basis
-    inverse, vectors = eigh(basis.T @ mass @ basis, reduced_stiffness)
+    inverse, vectors = pencil_modes(basis.T @ mass @ basis, reduced_stiffness)
     participation = (elastic @ vectors) ** 2
     meaningful = inverse > 1e-14 * inverse[-1]
     order = np.argsort(-inverse[meaningful])

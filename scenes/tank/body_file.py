@@ -61,4 +61,5 @@ def write_bodies(
         parts.append(np.array([_FLOAT]))
         count += len(section.contour)
     shifted = np.concatenate(points) + np.array([start, 0.0, 0.0])
-    write_vtu(path, shifted, cells, arrays, {"part": np.concatenate(parts)})
+    # Small files, of which there are many: compressing them takes longer than writing them.
+    write_vtu(path, shifted, cells, arrays, {"part": np.concatenate(parts)}, compressed=False)

@@ -223,7 +223,9 @@ def volume_resolution(
     first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count, severity)
     second = _of_degree(2, tank, tolerance, count, severity)
     many, few = (expected_unknowns(tank, one, mirrors) for one in (first, second))
-    takes_second = not (tank.baffles or tank.interface or is_of_mesh)
+    # Of degree 2 even the smallest cells would then leave too large an error.
+    is_coarse = second.sizes.edge <= _LEAST_EDGE
+    takes_second = not (tank.baffles or tank.interface or is_of_mesh or is_coarse)
     return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
 
 

@@ -261,7 +261,15 @@ def _mean_iterations(solvers: list[LiquidOperator]) -> float:
 def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeResolution | None:
     """The next resolution, ``None`` where there is none; the factors of the last one are given back (collective)."""
     model = solution.model
-    finer = next_resolution(model.resolution, solution.errors.first(count), model.tank, tolerance, count, model.mirrors)
+    finer = next_resolution(
+        model.resolution,
+        model.liquid.size,
+        solution.errors.first(count),
+        model.tank,
+        tolerance,
+        count,
+        model.mirrors,
+    )
     if finer is not None:
         for one in solution.modes.classes:
             if isinstance(one.pencil.solver, LiquidSolver):

@@ -134,4 +134,7 @@ def unfinished_run(problem: str, comm: MPI.Comm) -> Iterator[Checkpoint | None]:
             shutil.rmtree(folder, ignore_errors=True)
     finally:
         if lock is not None:
+            if not (folder / _STATE).exists():
+                # Of a scene that was refused nothing is kept.
+                shutil.rmtree(folder, ignore_errors=True)
             lock.close()

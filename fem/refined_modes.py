@@ -19,6 +19,7 @@ from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.modes import Mode, ModeSet, Products, as_made, completed_mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.solver_error import EigenSolverError
+from hydroelastic.fem.stopwatch import Report
 
 # Vectors of the basis for each mode, beyond which it does not converge.
 _MOST_VECTORS = 12
@@ -99,6 +100,7 @@ def refined_modes(
     products: Products = as_made,
     *,
     beyond: bool = False,
+    report: Report = lambda _message: None,
 ) -> ModeSet:
     """Return as many of the lowest modes as there are approximate ones (collective).
 
@@ -108,6 +110,7 @@ def refined_modes(
         residual: relative residual, in the norm of K, at which a mode counts as converged.
         products: of the operator; see `fem.modes.solve_modes`.
         beyond: whether the highest mode only shows what is beyond the others, with fewer digits.
+        report: receives messages on the progress.
 
     Raises:
         EigenSolverError: if a mode does not converge.
@@ -131,6 +134,9 @@ def refined_modes(
         steps, sizes = steps + 1, np.array(norms)
         some = min(count, len(values))
         missing = np.flatnonzero(sizes[:some] > limits[:some] * values[:some])
+        largest = float((sizes[:some] / values[:some]).max())
+        solves = pencil.solver.solves - before
+        report(f"{some - len(missing)} of {count} modes, residuals to {largest:.0e}, {solves} solutions")
         if len(values) >= count and not len(missing):
             break
         if len(basis.vectors) in (known, _MOST_VECTORS * count) or len(basis.vectors) > _MOST_VECTORS * count:

@@ -84,10 +84,13 @@ def test_potentials_are_combinations_of_those_of_products() -> None:
     assert pencil is not None
     exact = solve_modes(pencil, 3, tolerance=1e-10)
     before = pencil.solver.solves
-    modes = refined_modes(pencil, list(exact.eigenvectors), 1e-6)
+    told: list[str] = []
+    modes = refined_modes(pencil, list(exact.eigenvectors), 1e-6, report=told.append)
     # One each, and one of the motion without stiffness.
     made = 3 + len(pencil.free_rigid)
     assert pencil.solver.solves - before == made
+    assert told[-1].startswith("3 of 3 modes")
+    assert told[-1].endswith(f"{made} solutions")
     for number, expected in enumerate(exact.modes):
         own = modes.completed(number)
         assert pencil.solver.solves - before == made

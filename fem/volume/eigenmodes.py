@@ -20,6 +20,7 @@ from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classe
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.refined_modes import refined_modes
 from hydroelastic.fem.solver_error import EigenSolverError
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.model import VolumeModel
 from hydroelastic.fem.volume.pencil import SolverOf
 
@@ -63,6 +64,7 @@ def volume_modes(
     *,
     solver_of: SolverOf,
     products: Products,
+    report: Report = lambda _message: None,
 ) -> ClassModes:
     """Return the lowest modes of all classes (collective).
 
@@ -73,7 +75,9 @@ def volume_modes(
         tolerance: largest relative error of frequencies that is accepted.
         solver_of: makes the solver of Laplace's equation in the coarser space.
         products: of the operators; see `fem.modes.solve_modes`.
+        report: receives messages on the progress.
     """
+    report("modes of the coarser space")
     coarser = replace(model, resolution=replace(model.resolution, degree=model.resolution.degree // 2))
     coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils}, products)
     residual = min(_RESIDUAL * tolerance**0.5, _LARGEST_RESIDUAL)
@@ -84,7 +88,8 @@ def volume_modes(
         given = coarse.displacements(parity, share)
         if len(given) < share:
             return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance, products=products)
-        found = refined_modes(pencil, _prolonged(lower, pencil, given), residual, products, beyond=len(pencils) > 1)
+        start = _prolonged(lower, pencil, given)
+        found = refined_modes(pencil, start, residual, products, beyond=len(pencils) > 1, report=report)
         # Solutions in the coarser space by what they cost.
         cheaper = (lower.solver.solves - before + coarse.found[parity].solves) * lower.liquid.size / pencil.liquid.size
         return replace(found, solves=found.solves + ceil(cheaper))

@@ -39,6 +39,8 @@ _MILD = 0.01
 _MUCH_LARGER = 2.0
 # Part of the tolerance that the edges take where their error is known.
 _OF_KNOWN_EDGES = 0.7
+# Within this factor unknowns are expected, of plates.
+_WITHIN = 2.0
 # Part of an error up to which it counts as the same.
 _LITTLE_MORE = 1.2
 # Cells that layers add to each cell along an edge, over n (n + 1); measured.
@@ -194,7 +196,13 @@ def _step(excess: float, order: float) -> float:
 
 
 def volume_resolution(
-    tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors, *, severity: float | None = None
+    tank: VolumeTank,
+    tolerance: float,
+    count: int,
+    mirrors: Mirrors,
+    *,
+    severity: float | None = None,
+    times: float = 1.0,
 ) -> VolumeResolution:
     """Return the first resolution for some modes of a dimensionless tank.
 
@@ -210,6 +218,7 @@ def volume_resolution(
         mirrors: x and y of planes of symmetry.
         severity: error at singular edges over that of the measured constants; by default it is not known, and a mild
             one is assumed where that costs little beside what a usual one would: `next_resolution` then knows it.
+        times: unknowns of an earlier mesh over those expected, if these were many more.
     """
     if severity is None:
         mild, usual = (volume_resolution(tank, tolerance, count, mirrors, severity=one) for one in (_MILD, 1.0))
@@ -217,25 +226,27 @@ def volume_resolution(
         return mild if mild.foreseen and (many > _MUCH_LARGER * few or not usual.foreseen) else usual
     is_of_mesh = _is_of_mesh(tank)
     if not is_of_mesh and (tank.plates or tank.floats or tank.baffles or _has_corners(tank)):
-        layered = _layered(tank, tolerance, count, mirrors, severity)
+        layered = _layered(tank, tolerance, count, mirrors, severity, times)
         if layered is not None:
             return layered
     first = _of_degree(_FINE_DEGREE if tolerance < _FINE else _DEGREE, tank, tolerance, count, severity)
     second = _of_degree(2, tank, tolerance, count, severity)
     many, few = (expected_unknowns(tank, one, mirrors) for one in (first, second))
-    takes_second = not (tank.baffles or tank.interface or is_of_mesh)
+    # Of degree 2 even the smallest cells would then leave too large an error.
+    is_coarse = second.sizes.edge <= _LEAST_EDGE
+    takes_second = not (tank.baffles or tank.interface or is_of_mesh or is_coarse)
     return second if takes_second and many > max(few / _DEARER, DIRECT_UNKNOWNS) else first
 
 
 def _layered(
-    tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors, severity: float
+    tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors, severity: float, times: float
 ) -> VolumeResolution | None:
     """The cheapest resolution with layers; where none keeps the tolerance, that of the higher degree; ``None`` where
     they have too many unknowns for a factorization."""
     found = []
     for degree in (_DEGREE, _FINE_DEGREE):
         one = _of_degree(degree, tank, tolerance, count, severity, layered=True)
-        unknowns = expected_unknowns(tank, one, mirrors)
+        unknowns = times * expected_unknowns(tank, one, mirrors)
         if unknowns <= DIRECT_UNKNOWNS:
             # Seconds of an unknown grow with the degree: of 6 over 4 by 1.1 on straight cells, 1.7 on curved ones.
             is_coarse = one.sizes.edge <= _LEAST_EDGE
@@ -244,24 +255,31 @@ def _layered(
 
 
 def next_resolution(
-    last: VolumeResolution, errors: VolumeErrors, tank: VolumeTank, tolerance: float, count: int, mirrors: Mirrors
+    last: VolumeResolution,
+    unknowns: int,
+    errors: VolumeErrors,
+    tank: VolumeTank,
+    tolerance: float,
+    count: int,
+    mirrors: Mirrors,
 ) -> VolumeResolution | None:
     """Return the resolution after one whose errors are known; ``None`` where it ends.
 
-    After a first one with layers the error that was found at edges decides their degree and size anew.
+    After a first one with layers the error that was found at edges decides their degree and size anew, and the unknowns
+    that it had whether layers are cheap: around hulls of many short edges they are not.
     """
     finer = last.refined(errors, tolerance)
     if finer is None or not last.foreseen or finer.sizes.edge == last.sizes.edge:
         return finer
     severity = float(errors.edges.max()) / last.foreseen
     rest = max(tolerance - float((errors.total - errors.edges).max()), 0.5 * tolerance)
-    planned = volume_resolution(
-        tank, tolerance, count, mirrors, severity=severity * 0.5 * tolerance / (_OF_KNOWN_EDGES * rest)
-    )
-    same = planned.degree == last.degree and planned.sizes.layers <= last.sizes.layers
-    if same and planned.sizes.edge > _LEAST_STEP * last.sizes.edge:
-        return finer
-    sizes = replace(planned.sizes, bulk=min(planned.sizes.bulk, finer.sizes.bulk), around=finer.sizes.around)
+    severity *= 0.5 * tolerance / (_OF_KNOWN_EDGES * rest)
+    times = max(1.0, unknowns / (_WITHIN * expected_unknowns(tank, last, mirrors)))
+    planned = volume_resolution(tank, tolerance, count, mirrors, severity=severity, times=times)
+    # Half of the size costs a fifth more where cells elsewhere are as large, and one attempt then suffices.
+    edge = min(planned.sizes.edge, (0.5 if planned.degree == last.degree else 1.0) * last.sizes.edge)
+    bulk = min(planned.sizes.bulk, finer.sizes.bulk)
+    sizes = replace(planned.sizes, edge=edge, bulk=bulk, around=finer.sizes.around)
     return replace(planned, sizes=sizes, polynomials=finer.polynomials, foreseen=0.0)
 
 

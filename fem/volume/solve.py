@@ -182,6 +182,11 @@ def _solve(
         coarser = replace(model, resolution=resolution.coarser)
         by_inertia = growing or coarser.liquid.size <= DIRECT_UNKNOWNS
 
+        def told(message: str) -> None:
+            iterations = _mean_iterations([one.solver for one in pencils.values()])
+            each = f" of {iterations:.0f} iterations each" if iterations else ""
+            report(f"attempt {attempt}, {size} unknowns: {message}{each}")
+
         def is_counted(found: ClassModes) -> bool:
             if not by_inertia:
                 return no_mode_is_beyond(found, products)
@@ -195,7 +200,10 @@ def _solve(
             counted = is_counted(modes)
         else:
             coarse_solver = partial(solver_of, tolerance=_COARSE, largest=maxsize if layered else DIRECT_UNKNOWNS)
-            modes = volume_modes(model, pencils, count + 1, tolerance, solver_of=coarse_solver, products=products)
+            modes = volume_modes(
+                model, pencils, count + 1, tolerance, solver_of=coarse_solver, products=products, report=told
+            )
+            report(f"attempt {attempt}, {size} unknowns: count of the modes")
             counted = is_counted(modes)
             if not counted:
                 # One that the coarser space does not have.
@@ -215,8 +223,6 @@ def _solve(
             return np.array([model.images * edges, model.images * waves, plates])
 
         edges, waves, plates = merged_errors(modes, 3, errors_of)
-        solvers = [one.pencil.solver for one in modes.classes]
-        iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
         return VolumeSolution(
             model=model,
             modes=modes,
@@ -230,7 +236,7 @@ def _solve(
             counted=counted,
             count_method=BY_INERTIA if by_inertia else "residuals, and a second start vector",
             attempts=attempt,
-            iterations=float(np.mean(iterations)) if iterations else 0.0,
+            iterations=_mean_iterations([one.pencil.solver for one in modes.classes]),
         )
 
     return adaptive_solve(
@@ -246,10 +252,24 @@ def _solve(
     ).solution
 
 
+def _mean_iterations(solvers: list[LiquidOperator]) -> float:
+    """Iterations of a solution of Laplace's equation; 0 of direct solvers."""
+    own = [one for one in solvers if isinstance(one, MultigridSolver)]
+    return sum(one.iterations for one in own) / max(sum(one.solves for one in own), 1)
+
+
 def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeResolution | None:
     """The next resolution, ``None`` where there is none; the factors of the last one are given back (collective)."""
     model = solution.model
-    finer = next_resolution(model.resolution, solution.errors.first(count), model.tank, tolerance, count, model.mirrors)
+    finer = next_resolution(
+        model.resolution,
+        model.liquid.size,
+        solution.errors.first(count),
+        model.tank,
+        tolerance,
+        count,
+        model.mirrors,
+    )
     if finer is not None:
         for one in solution.modes.classes:
             if isinstance(one.pencil.solver, LiquidSolver):

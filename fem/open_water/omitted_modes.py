@@ -11,6 +11,7 @@ from hydroelastic.fem.open_water.bent_plates import omitted_effect
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.outside import attachment_paths
+from hydroelastic.physics.beams import Beam
 
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes, where they fall like n⁻⁵: those of
 # beams whose load jumps where a section begins.
@@ -62,6 +63,47 @@ def omitted_energy(solution: OpenResponse, index: int) -> np.ndarray:
         numbers, power = np.arange(body.size - 2, body.size) - 0.5, 2.0 * _ORDER - 4.0
         tail = energies @ ((0.5 * numbers) ** power * zeta(power, 1.0 + 0.5 * numbers))
     return np.asarray(np.sqrt(tail) + np.sqrt(body.stiffness[-1]) * _tails_of_attachments(solution, index))
+
+
+def weakened_attachments(solution: OpenResponse, dual: np.ndarray) -> np.ndarray:
+    """Change of functionals m·a of the motions by the omitted dry modes of beams under springs and dampers at points,
+    shape (functionals, incident).
+
+    An attachment pulls with f = (K − iωB) u. In the omitted modes its point gives way by G f, which makes it weaker by
+    (K − iωB) G f.
+
+    Args:
+        solution: the response.
+        dual: D⁻¹ m of each functional, see `functional_errors`, shape (functionals, body unknowns).
+    """
+    model, omega = solution.model, float(np.sqrt(solution.squared.real))
+    attachments, (tank, bodies) = model.attachments, (model.basin.tank, model.pencil.bodies)
+    change = np.zeros((len(dual), len(solution.motions)))
+    for one, path in zip(attachments, attachment_paths(model.basin, bodies, attachments), strict=True):
+        scaled = one.scaled(model.basin.units)
+        held = scaled.stiffness - 1j * omega * scaled.damping
+        for index in [index for index in tank.beams if index in (one.body, one.other)]:
+            place = (one.point[0] - model.basin.origin) / model.basin.units.length - tank.piece_of(index).start
+            weaker = held @ _omitted_compliance(tank.beams[index], bodies[index].size, place) @ held
+            change += np.abs(dual @ path.T @ weaker @ path @ solution.motions.T)
+    return change
+
+
+def _omitted_compliance(beam: Beam, count: int, place: float) -> np.ndarray:
+    """G = Σ_{n>N} (Wₙ, 0, Wₙ′)ᵀ(Wₙ, 0, Wₙ′)/(EI κₙ⁴ l) at a point of a beam, κₙ = nπ/l.
+
+    |Wₙ| ≤ √2, and slopes are independent of it, but for the last l/N before an end, where |Wₙ| = 2 and Wₙ′ = ±κₙ Wₙ.
+    """
+    end = (place > beam.length * (1.0 - 1.0 / count)) - (place < beam.length / count)
+    both = end * beam.length**2 / (2.0 * pi**3 * count**2)
+    compliance = np.zeros((3, 3))
+    compliance[[0, 0, 2, 2], [0, 2, 0, 2]] = (
+        beam.length**3 / (3.0 * pi**4 * count**3),
+        both,
+        both,
+        beam.length / (pi**2 * count),
+    )
+    return (4.0 if end else 2.0) / beam.flexural_rigidity * compliance
 
 
 def _last_amplitudes(solution: OpenResponse, index: int) -> np.ndarray:

@@ -92,7 +92,9 @@ def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Itera
                 (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
                 for row in rows
             ],
-            lines=("Of surge the largest difference of all frequencies, in parts of the largest value.",),
+            lines=("Of surge the largest difference of all frequencies, in parts of the largest value.",)
+            if any("surge" in row["quantity"] for row in rows)
+            else (),
             compares=True,
         )
     if infinite is not None:

@@ -138,7 +138,7 @@ class BeamLoads:
         weights[1:, :, self._own] = self._area.swapaxes(1, 2) / self._length
         found = sum(functional_errors(response, dual + weights.reshape(dual.shape)))
         meshed: np.ndarray = np.asarray(found).reshape(3, len(self._x), -1).max(axis=1)
-        weakened = weakened_attachments(response, dual).reshape(3, len(self._x), -1).max(axis=1)
+        weakened = weakened_attachments(response, dual, self._carried()).reshape(3, len(self._x), -1).max(axis=1)
         largest = np.abs(response.motions[:, self._own] @ self._deflection).max(axis=1)
         drag = np.zeros((len(response.incident), len(self._model.outside.drag)))
         held = self._held(squared, response.motions, drag)
@@ -161,6 +161,17 @@ class BeamLoads:
             held[0] += beyond * force[:, None]
             held[1] += beyond * ((self._x - start) * force[:, None] - couple[:, None])
         return held
+
+    def _carried(self) -> dict[int, np.ndarray]:
+        """What deflection, shear force and moment at the points take of the force, in heave, sway and rotation, of each
+        attachment, shape (3 p, 3), by its number."""
+        found: dict[int, np.ndarray] = {}
+        for start, sign, _path, number in self._supports:
+            beyond = sign * (self._x > start)
+            carried = np.zeros((3, len(self._x), 3))
+            carried[1, :, 0], carried[2, :, 0], carried[2, :, 2] = beyond, beyond * (self._x - start), -beyond
+            found[number] = carried.reshape(-1, 3)
+        return found
 
     def _balanced(self, loads: np.ndarray) -> np.ndarray:
         """Shear force and moment by a load that varies linearly, with the same values at the right end: inertia of a

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from math import pi
+from types import MappingProxyType
 
 import numpy as np
 from scipy.special import zeta
@@ -62,12 +64,17 @@ def omitted_energy(solution: OpenResponse, index: int) -> np.ndarray:
     else:
         numbers, power = np.arange(body.size - 2, body.size) - 0.5, 2.0 * _ORDER - 4.0
         tail = energies @ ((0.5 * numbers) ** power * zeta(power, 1.0 + 0.5 * numbers))
-    return np.asarray(np.sqrt(tail) + np.sqrt(body.stiffness[-1]) * _tails_of_attachments(solution, index))
+    for _number, held, path, compliance in _attached(solution, index):
+        force = solution.motions @ path.T @ held
+        tail = tail + np.einsum("wi,ij,wj->w", force.conj(), compliance, force).real
+    return np.asarray(np.sqrt(tail))
 
 
-def weakened_attachments(solution: OpenResponse, dual: np.ndarray) -> np.ndarray:
-    """Change of functionals m·a of the motions by the omitted dry modes of beams under springs and dampers at points,
-    shape (functionals, incident).
+def weakened_attachments(
+    solution: OpenResponse, dual: np.ndarray, direct: Mapping[int, np.ndarray] = MappingProxyType({})
+) -> np.ndarray:
+    """Change of functionals m·a of the motions, or of loads beside them, by the omitted dry modes of beams under
+    springs and dampers at points, shape (functionals, incident).
 
     An attachment pulls with f = (K − iωB) u. In the omitted modes its point gives way by G f, which makes it weaker by
     (K − iωB) G f.
@@ -75,18 +82,27 @@ def weakened_attachments(solution: OpenResponse, dual: np.ndarray) -> np.ndarray
     Args:
         solution: the response.
         dual: D⁻¹ m of each functional, see `functional_errors`, shape (functionals, body unknowns).
+        direct: what each functional takes of the force of an attachment itself, shape (functionals, 3), by its number.
     """
-    model, omega = solution.model, float(np.sqrt(solution.squared.real))
-    attachments, (tank, bodies) = model.attachments, (model.basin.tank, model.pencil.bodies)
     change = np.zeros((len(dual), len(solution.motions)))
-    for one, path in zip(attachments, attachment_paths(model.basin, bodies, attachments), strict=True):
-        scaled = one.scaled(model.basin.units)
-        held = scaled.stiffness - 1j * omega * scaled.damping
-        for index in [index for index in tank.beams if index in (one.body, one.other)]:
-            place = (one.point[0] - model.basin.origin) / model.basin.units.length - tank.piece_of(index).start
-            weaker = held @ _omitted_compliance(tank.beams[index], bodies[index].size, place) @ held
-            change += np.abs(dual @ path.T @ weaker @ path @ solution.motions.T)
+    for index in solution.model.basin.tank.beams:
+        for number, held, path, compliance in _attached(solution, index):
+            taken = dual @ path.T + direct.get(number, 0.0)
+            change += np.abs(taken @ held @ compliance @ held @ path @ solution.motions.T)
     return change
+
+
+def _attached(solution: OpenResponse, index: int) -> Iterator[tuple[int, np.ndarray, np.ndarray, np.ndarray]]:
+    """Yield the number of each attachment of a beam, K − iωB, its path and its G."""
+    model, omega = solution.model, float(np.sqrt(solution.squared.real))
+    basin, bodies, attachments = model.basin, model.pencil.bodies, model.attachments
+    beam, start = basin.tank.beams[index], basin.tank.piece_of(index).start
+    for number, path in enumerate(attachment_paths(basin, bodies, attachments)):
+        one = attachments[number]
+        if index in (one.body, one.other):
+            scaled, place = one.scaled(basin.units), (one.point[0] - basin.origin) / basin.units.length - start
+            held = scaled.stiffness - 1j * omega * scaled.damping
+            yield number, held, path, _omitted_compliance(beam, bodies[index].size, place)
 
 
 def _omitted_compliance(beam: Beam, count: int, place: float) -> np.ndarray:

@@ -18,6 +18,8 @@ from hydroelastic.scenes.open_water.solve import solve_open
 
 FLOAT = {"kind": "float", "shape": "rectangle", "half_width": 1.5, "half_height": 1.0, "position": -4.0}
 FLOAT |= {"vertical_centre_of_gravity": 0.1, "radius_of_gyration": 0.9, "motions": ["heave", "sway", "roll"]}
+# Stiffness of any sign.
+FLOAT |= {"unstable": "solve"}
 BEAM = {"start": 0.0, "length": 12.0, "flexural_rigidity": 2e6, "mass_per_length": 300.0}
 # A mooring, a fender with a damper and drag between float and beam, a soft rotational spring and a damper on the beam.
 ALL = [

@@ -25,6 +25,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.incident_waves import Wave
+from hydroelastic.fem.open_water.omitted_modes import weakened_attachments
 from hydroelastic.fem.open_water.outside import attachment_paths
 from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
@@ -115,7 +116,8 @@ class BeamLoads:
         Those by the mesh and by the absorbing layer are the `functional_errors` at the points x; the shear force is the
         functional with g = 1 to the left of x, the moment that with g = x − x′. A deflection δw in the omitted dry
         modes, of wavenumbers above κ, is a load (Δρ g + ω²(m + ρ/κ)) δw, whose integrals are smaller by κ and κ²; and
-        it changes the forces of springs and dampers by the same part as the deflection.
+        it changes the forces of springs and dampers by the same part as the deflection. What these modes change in
+        those in use is that of `weakened_attachments`.
 
         Args:
             response: to waves of c = 1.
@@ -136,6 +138,7 @@ class BeamLoads:
         weights[1:, :, self._own] = self._area.swapaxes(1, 2) / self._length
         found = sum(functional_errors(response, dual + weights.reshape(dual.shape)))
         meshed: np.ndarray = np.asarray(found).reshape(3, len(self._x), -1).max(axis=1)
+        weakened = weakened_attachments(response, dual, self._carried()).reshape(3, len(self._x), -1).max(axis=1)
         largest = np.abs(response.motions[:, self._own] @ self._deflection).max(axis=1)
         drag = np.zeros((len(response.incident), len(self._model.outside.drag)))
         held = self._held(squared, response.motions, drag)
@@ -143,7 +146,7 @@ class BeamLoads:
         load = self._restoring + squared * (self._heaviest + self._density / self._wavenumber)
         truncated = np.array([np.ones_like(largest), *(kept / largest)])
         truncated[1:] += np.array([[load / self._wavenumber], [load / self._wavenumber**2]])
-        return meshed + truncated * omitted
+        return meshed + weakened + truncated * omitted
 
     def _moved(self, squared: float, motions: np.ndarray) -> np.ndarray:
         """Shear force and moment by the inertia of the beam and by its weight in the liquid, shape (2, motions, p)."""
@@ -158,6 +161,17 @@ class BeamLoads:
             held[0] += beyond * force[:, None]
             held[1] += beyond * ((self._x - start) * force[:, None] - couple[:, None])
         return held
+
+    def _carried(self) -> dict[int, np.ndarray]:
+        """What deflection, shear force and moment at the points take of the force, in heave, sway and rotation, of each
+        attachment, shape (3 p, 3), by its number."""
+        found: dict[int, np.ndarray] = {}
+        for start, sign, _path, number in self._supports:
+            beyond = sign * (self._x > start)
+            carried = np.zeros((3, len(self._x), 3))
+            carried[1, :, 0], carried[2, :, 0], carried[2, :, 2] = beyond, beyond * (self._x - start), -beyond
+            found[number] = carried.reshape(-1, 3)
+        return found
 
     def _balanced(self, loads: np.ndarray) -> np.ndarray:
         """Shear force and moment by a load that varies linearly, with the same values at the right end: inertia of a

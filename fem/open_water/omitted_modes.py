@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from math import pi
+from types import MappingProxyType
 
 import numpy as np
 from scipy.special import zeta
@@ -11,6 +13,7 @@ from hydroelastic.fem.open_water.bent_plates import omitted_effect
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.outside import attachment_paths
+from hydroelastic.physics.beams import Beam
 
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes, where they fall like n⁻⁵: those of
 # beams whose load jumps where a section begins.
@@ -61,7 +64,62 @@ def omitted_energy(solution: OpenResponse, index: int) -> np.ndarray:
     else:
         numbers, power = np.arange(body.size - 2, body.size) - 0.5, 2.0 * _ORDER - 4.0
         tail = energies @ ((0.5 * numbers) ** power * zeta(power, 1.0 + 0.5 * numbers))
-    return np.asarray(np.sqrt(tail) + np.sqrt(body.stiffness[-1]) * _tails_of_attachments(solution, index))
+    for _number, held, path, compliance in _attached(solution, index):
+        force = solution.motions @ path.T @ held
+        tail = tail + np.einsum("wi,ij,wj->w", force.conj(), compliance, force).real
+    return np.asarray(np.sqrt(tail))
+
+
+def weakened_attachments(
+    solution: OpenResponse, dual: np.ndarray, direct: Mapping[int, np.ndarray] = MappingProxyType({})
+) -> np.ndarray:
+    """Change of functionals m·a of the motions, or of loads beside them, by the omitted dry modes of beams under
+    springs and dampers at points, shape (functionals, incident).
+
+    An attachment pulls with f = (K − iωB) u. In the omitted modes its point gives way by G f, which makes it weaker by
+    (K − iωB) G f.
+
+    Args:
+        solution: the response.
+        dual: D⁻¹ m of each functional, see `functional_errors`, shape (functionals, body unknowns).
+        direct: what each functional takes of the force of an attachment itself, shape (functionals, 3), by its number.
+    """
+    change = np.zeros((len(dual), len(solution.motions)))
+    for index in solution.model.basin.tank.beams:
+        for number, held, path, compliance in _attached(solution, index):
+            taken = dual @ path.T + direct.get(number, 0.0)
+            change += np.abs(taken @ held @ compliance @ held @ path @ solution.motions.T)
+    return change
+
+
+def _attached(solution: OpenResponse, index: int) -> Iterator[tuple[int, np.ndarray, np.ndarray, np.ndarray]]:
+    """Yield the number of each attachment of a beam, K − iωB, its path and its G."""
+    model, omega = solution.model, float(np.sqrt(solution.squared.real))
+    basin, bodies, attachments = model.basin, model.pencil.bodies, model.attachments
+    beam, start = basin.tank.beams[index], basin.tank.piece_of(index).start
+    for number, path in enumerate(attachment_paths(basin, bodies, attachments)):
+        one = attachments[number]
+        if index in (one.body, one.other):
+            scaled, place = one.scaled(basin.units), (one.point[0] - basin.origin) / basin.units.length - start
+            held = scaled.stiffness - 1j * omega * scaled.damping
+            yield number, held, path, _omitted_compliance(beam, bodies[index].size, place)
+
+
+def _omitted_compliance(beam: Beam, count: int, place: float) -> np.ndarray:
+    """G = Σ_{n>N} (Wₙ, 0, Wₙ′)ᵀ(Wₙ, 0, Wₙ′)/(EI κₙ⁴ l) at a point of a beam, κₙ = nπ/l.
+
+    |Wₙ| ≤ √2, and slopes are independent of it, but for the last l/N before an end, where |Wₙ| = 2 and Wₙ′ = ±κₙ Wₙ.
+    """
+    end = (place > beam.length * (1.0 - 1.0 / count)) - (place < beam.length / count)
+    both = end * beam.length**2 / (2.0 * pi**3 * count**2)
+    compliance = np.zeros((3, 3))
+    compliance[[0, 0, 2, 2], [0, 2, 0, 2]] = (
+        beam.length**3 / (3.0 * pi**4 * count**3),
+        both,
+        both,
+        beam.length / (pi**2 * count),
+    )
+    return (4.0 if end else 2.0) / beam.flexural_rigidity * compliance
 
 
 def _last_amplitudes(solution: OpenResponse, index: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
-from hydroelastic.fem.open_water.omitted_modes import omitted_deflection, truncation
+from hydroelastic.fem.open_water.omitted_modes import omitted_deflection, truncation, weakened_attachments
 from hydroelastic.fem.open_water.plate_load_errors import plate_load_errors
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.resolution import rounding_error
@@ -42,6 +42,10 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     dual = dual_motions(solution, moved)
     own = functional_errors(solution, dual)
     omitted = np.full(count, truncation(solution))
+    omitted += (weakened_attachments(solution, dual) / sizes).max(axis=0, initial=0.0)
+    leaving = incidence.amplitudes(incidence.pressures - solution.equations.radiated)
+    waves = weakened_attachments(solution, dual_motions(solution, leaving))
+    omitted += np.sqrt((incidence.powers[:, None] * waves**2).max(axis=0) / powers)
     for modes in model.plate_modes.values():
         omitted = np.maximum(omitted, (omitted_deflections(modes, solution, dual) / sizes).max(axis=0))
     away, tips = (

@@ -56,6 +56,6 @@ class Attachment(SparseModel):
 
     @model_validator(mode="after")
     def _holds(self) -> Attachment:
-        if not any(any(row) for row in (*self.stiffness, *self.damping, self.quadratic_damping)):
+        if not self.model_fields_set & {"stiffness", "damping", "quadratic_damping"}:
             raise problem("it has no force", remedy="Give stiffness, damping or quadratic_damping")
         return self

@@ -143,7 +143,9 @@ def test_no_power_is_lost_or_reflected_by_the_truncation(depth_in_radians: float
 
 
 @pytest.mark.parametrize("depth_in_radians", [0.01, 0.1, 1.0, 10.0, 100.0])
-def test_the_ends_of_the_absorbing_layer_hardly_reflect(depth_in_radians: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_ends_of_the_absorbing_layer_hardly_reflect(
+    depth_in_radians: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A part r of outgoing waves that comes back changes aₙ by 2raₙ²; a longer layer at another angle tells it.
 
     Of orders 0 to 8, each beside a disc that scatters it well.

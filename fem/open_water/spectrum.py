@@ -311,9 +311,7 @@ def _further_orders(problem: OpenWaterProblem, request: SpectrumRequest, omegas:
         own = _curves(fixed.of_order(order), request).result.at(omegas, fixed.tolerance)
         chosen = np.searchsorted(own.omegas, omegas)
         responses = [own.responses[place] for place in chosen]
-        return replace(
-            own, omegas=omegas, responses=responses, errors=own.errors[chosen], reduced=own.reduced[chosen]
-        )
+        return replace(own, omegas=omegas, responses=responses, errors=own.errors[chosen], reduced=own.reduced[chosen])
 
     return curves
 

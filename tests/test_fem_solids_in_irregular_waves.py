@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
-from solids_at_sea import GRAVITY, MOTIONS, solved
+from solids_at_sea import GRAVITY, MOTIONS, problem_of, solved
 
 from hydroelastic.fem.open_water.requests import (
     ImpulseResponseRequest,
@@ -18,6 +18,7 @@ from hydroelastic.fem.open_water.requests import (
     ResponseRequest,
     SpectrumRequest,
 )
+from hydroelastic.fem.open_water.spectrum import _further_orders
 from hydroelastic.physics.wave_spectrum import PeakedSpectrum
 
 pytestmark = pytest.mark.slow
@@ -28,6 +29,14 @@ HELD: dict[str, Any] = {
 }
 SPECTRUM = PeakedSpectrum(height=1.0, period=3.0, enhancement=3.3)
 POINT = (0.5, 0.25)
+
+
+def test_waves_of_fixed_orders_are_told_at_the_frequencies_asked_for() -> None:
+    """With their errors: those of all frequencies of the order ended spectra of floes with a traceback."""
+    request = SpectrumRequest(spectrum=SPECTRUM, words="", highest=5.0)
+    omegas = np.linspace(1.5, 4.5, 5)
+    curves = _further_orders(problem_of([SPHERE], math.inf, 1e-2), request, omegas)(2)
+    assert len(curves.responses) == len(curves.errors) == len(curves.reduced) == len(omegas)
 
 
 def test_irregular_waves_are_regular_ones_summed() -> None:

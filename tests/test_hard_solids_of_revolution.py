@@ -11,10 +11,15 @@ from open_cases import TOO_SMALL
 from scipy.special import h1vp, jvp
 from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, problem_of, solved
 
+from hydroelastic.fem.open_water import basin
+from hydroelastic.fem.open_water.basin import CUT
+from hydroelastic.fem.open_water.field_model import ANGLE_OVER_A_BED, Band
+from hydroelastic.fem.open_water.model_building import first_resolution, open_model
 from hydroelastic.fem.open_water.radiation_memory import solve_memory
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.results import RadiationTable
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.scenes.errors import SceneError
 
 pytestmark = pytest.mark.slow
@@ -135,6 +140,31 @@ def test_no_power_is_lost_or_reflected_by_the_truncation(depth_in_radians: float
     for order in (0, 1, 2, 4, 8):
         table = solve_response(problem.of_order(order), ResponseRequest(omega=(omega,))).table
         assert abs(table.energy_residual[0, 0]) < 1e-7
+
+
+@pytest.mark.parametrize("depth_in_radians", [0.01, 0.1, 1.0, 10.0, 100.0])
+def test_the_ends_of_the_absorbing_layer_hardly_reflect(
+    depth_in_radians: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A part r of outgoing waves that comes back changes aₙ by 2raₙ²; a longer layer at another angle tells it.
+
+    Of orders 0 to 8, each beside a disc that scatters it well.
+    """
+    wavenumber = depth_in_radians
+    omega = math.sqrt(GRAVITY * wavenumber * math.tanh(depth_in_radians))
+    band = Band(lowest=omega, highest=omega)
+    for order in range(9):
+        plate = {"kind": "plate", "outline": "disc", "rigid": True, "mass_per_area": 1e-3}
+        disc = plate | {"radius": (order + 1) / wavenumber}
+        problem = problem_of([], 1.0, 1e-6, body=[disc]).of_order(order)
+        resolution, waves = first_resolution(problem.tank, 1e-6, band), []
+        for cut, angle in ((CUT, ANGLE_OVER_A_BED), (1e-5, ANGLE_OVER_A_BED + 0.15)):
+            monkeypatch.setattr(basin, "CUT", cut)
+            solver = OpenSolver(open_model(problem, band, resolution, angle=angle), problem.watch)
+            waves.append(solver.response(omega, [0]).partial_waves()[0, 0])
+        found, known = waves
+        # Measured r up to 4e-6, in deep water of order 0; 6e-8 is what the layer is made for: the energy is r².
+        assert abs(found - known) < 2e-5 * abs(known) ** 2
 
 
 def test_bodies_that_touch_are_refused_in_words() -> None:

@@ -265,6 +265,10 @@ def test_messages_name_the_keys_of_the_body_at_hand(tmp_path: Path) -> None:
     assert "inner_radius" in misplaced
     assert "belongs to kind" not in misplaced
     assert 'key "draught" = 12.0: the float reaches down' in said(tmp_path, f"{solid}, draught = 12.0")
+    heavy = said(tmp_path, 'kind = "float", shape = "sphere", radius = 1.0, mass = 1e5')
+    assert "with a volume of 4.18879 m³ it sinks. Allowed: between 0 and 4188.79 kg (Archimedes)" in heavy
+    around = 'kind = "float", shape = "cylinder", radius = 2.0, inner_radius = 1.0, draught = 1.0'
+    assert "[[body]] number 2: the body overlaps" in said(tmp_path, f"{solid}, draught = 1.0}}, {{{around}")
     section = 'kind = "float", shape = "ellipse", half_width = 1.0, half_height = 1.0'
     assert "half_width, half_height, tail" in said(tmp_path, f"{section}, colour = 1.0")
     assert '"beam" or "varying_beam" or "float" or "plate". ' in said(tmp_path, 'kind = "boat"')

@@ -310,9 +310,8 @@ def _further_orders(problem: OpenWaterProblem, request: SpectrumRequest, omegas:
     def curves(order: int) -> Curves:
         own = _curves(fixed.of_order(order), request).result.at(omegas, fixed.tolerance)
         chosen = np.searchsorted(own.omegas, omegas)
-        return replace(
-            own, omegas=omegas, responses=[own.responses[place] for place in chosen], errors=own.errors[chosen]
-        )
+        responses = [own.responses[place] for place in chosen]
+        return replace(own, omegas=omegas, responses=responses, errors=own.errors[chosen], reduced=own.reduced[chosen])
 
     return curves
 

@@ -77,7 +77,7 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
     try:
         level = level_at_rest(body, contour, densities)
     except ValueError:
-        yield _floats_elsewhere(index, body, contour.moments().area, densities)
+        yield _floats_elsewhere(scene, index, body, contour.moments().area)
         return
     yield from _parts_on_both_sides(index, body, contour, level)
     try:
@@ -159,14 +159,15 @@ def _other_models(body: AnyFloat) -> str:
     return 'boundary = "thin" takes it' if body.boundary == "exact" and body.shape in THIN_SHAPES else ""
 
 
-def _floats_elsewhere(index: int, body: AnyFloat, area: float, densities: tuple[float, float]) -> InitErrorDetails:
-    below, above = densities
+def _floats_elsewhere(scene: TankParts, index: int, body: AnyFloat, area: float) -> InitErrorDetails:
+    below, above = scene.densities_at(scene.level_of(body))
+    size, unit = (f"volume of {area:g} m³", "kg") if scene.is_revolved else (f"section of {area:g} m²", "kg/m")
     heavy = (body.mass or 0.0) >= below * area
     return problem_at(
         ("body", index, "mass"),
         body.mass,
-        f"with a section of {area:g} m² it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
-        allowed=f"between {above * area:g} and {below * area:g} kg/m (Archimedes)",
+        f"with a {size} it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
+        allowed=f"between {above * area:g} and {below * area:g} {unit} (Archimedes)",
         remedy="Leave it out for the mass that floats with the reference level at the still level",
     )
 
@@ -297,11 +298,11 @@ def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     for first, second in _neighbours(scene, boxes):
         gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
         if _nearer_than(gap, boxes[first], boxes[second]):
-            later = scene.body[second]
             left, right, _, _ = boxes[first]
+            key = "position" if _is_float(scene, second) else "start"
             yield problem_at(
-                ("body", second, "position" if _is_float(scene, second) else "start"),
-                later.start,
+                ("body", second, *(() if scene.is_revolved else (key,))),
+                None if scene.is_revolved else scene.body[second].start,
                 f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
                 remedy=f"Leave a gap of at least {gap:g} m between them",
             )

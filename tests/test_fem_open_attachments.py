@@ -155,7 +155,7 @@ def test_what_a_spring_bends_beyond_the_dry_modes_is_in_the_error() -> None:
 def test_forces_and_moments_of_springs_dampers_and_drag_act_on_a_beam() -> None:
     beam = {"length": 4.0, "flexural_rigidity": 1e4, "mass_per_length": 50.0}
     held = {"stiffness": [3e3, 0.0, 9e3], "damping": [2e3, 0.0, 7e3], "quadratic_damping": [5e3, 0.0, 4e4]}
-    asked: dict[str, Any] = {"omega": [2.5], "positions": 41, "wave_amplitude": 0.2, "tolerance": 1e-2}
+    asked: dict[str, Any] = {"omega": [2.5], "positions": 41, "wave_amplitude": 0.2, "tolerance": 5e-2}
     plate = response(beam, {"at": [0.5, 0.0]} | held, **asked).plates[0]
     # Heave and pitch are in equilibrium, so that nothing is left at the right end but rounding.
     for load in (plate.shear_force[0, 0], plate.bending_moment[0, 0]):

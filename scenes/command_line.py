@@ -35,13 +35,12 @@ from hydroelastic.scenes.command_parts import (
     file_of_scene,
     folder_of_results,
     is_first_rank,
-    title_of_scene,
 )
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
-from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes
+from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes, title_of_scene
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.sweep.command import sweep
 

@@ -9,7 +9,7 @@ import click
 
 from hydroelastic.output.folder import check_output
 from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
-from hydroelastic.scenes.read import STANDARD_INPUT, Scene, scene_path
+from hydroelastic.scenes.read import STANDARD_INPUT, scene_path
 
 NOT_TO_TOLERANCE = 3
 """Exit code where something was not solved to its tolerance."""
@@ -49,11 +49,6 @@ def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path
         )
     click.echo(f"Note: the results of {other} in {folder}/ will be replaced.", err=True)
     return folder
-
-
-def title_of_scene(scene: Scene) -> str:
-    """Return the title of a scene for messages."""
-    return scene.title or "Untitled scene"
 
 
 def is_first_rank() -> bool:

@@ -211,6 +211,11 @@ def _as_read(value: Any) -> Any:
     return [_as_read(entry) for entry in value] if isinstance(value, list | tuple) else value
 
 
+def title_of_scene(scene: Scene) -> str:
+    """Return the title of a scene for messages."""
+    return scene.title or "Untitled scene"
+
+
 def closed_tank(scene: Scene, because: str) -> TankScene:
     """Return the scene of a closed tank, and refuse any other.
 

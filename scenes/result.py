@@ -23,7 +23,8 @@ from hydroelastic.output.sections import Section, printed_sections, read_markdow
 from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.read import Scene, is_scene, read_scene
+from hydroelastic.scenes.progress import progress
+from hydroelastic.scenes.read import Scene, is_scene, read_scene, title_of_scene
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.words import proposal
@@ -165,18 +166,23 @@ class Result:
             return MPI.COMM_WORLD.bcast(found)
 
 
-def solve(scene: Scene | str | Path | Mapping[str, Any]) -> Result:
-    """Solve a scene; prints and writes nothing (collective).
+def solve(scene: Scene | str | Path | Mapping[str, Any], *, report: bool = False) -> Result:
+    """Solve a scene; writes nothing (collective).
 
     Args:
         scene: the scene, or what `read` takes: the name or file of one, or a dictionary with the keys of a file.
+        report: whether the current step is shown while it is solved, on a terminal or below the cell of a notebook.
 
     Raises:
         SceneError: if the scene, or a file that it names, cannot be used.
         UnsolvedError: if the scene cannot be solved.
     """
     given: Any = scene if is_scene(scene) else read_scene(scene)
-    outcome = runner_of(given).solved(given)
+    runner = runner_of(given)
+    from mpi4py import MPI
+
+    with progress(title_of_scene(given), shown=report and MPI.COMM_WORLD.rank == 0) as told:
+        outcome = runner.solved(given, report=told)
     summary = json_ready(outcome.summary)
     return Result(scene=given, summary=summary, sections=outcome.sections, cost=outcome.cost, outcome=outcome)
 

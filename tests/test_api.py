@@ -6,6 +6,8 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -257,6 +259,21 @@ def test_errors_name_what_is_wrong_and_what_to_do(make: Any, said: str) -> None:
     with pytest.raises(he.SceneError) as caught:
         make()
     assert said in str(caught.value)
+
+
+def test_the_current_step_is_shown_if_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[str] = []
+
+    @contextmanager
+    def line(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
+        yield lambda step: seen.append(f"{step} of {title}") if shown else None
+
+    monkeypatch.setattr("hydroelastic.scenes.result.progress", line)
+    scene = he.read("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3})
+    he.solve(scene)
+    assert not seen
+    he.solve(scene, report=True)
+    assert any(step.startswith("attempt 1") and step.endswith(str(scene.title)) for step in seen)
 
 
 def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Checks of the floats of a scene: sections, sizes, equilibrium, clearance and stability."""
+"""Checks of each float of a scene, alone in the tank: section, size, equilibrium, place."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.motions import PLACES
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
-from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.open_checks import depths_can_be_meshed, length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -41,7 +40,7 @@ LONGEST_ARM = 1e3
 AGREEMENT = 1e-3
 """Relative difference up to which two keys for the same quantity agree: what is given twice is rounded."""
 
-_Box: TypeAlias = tuple[float, float, float, float]
+Box: TypeAlias = tuple[float, float, float, float]
 
 
 def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -129,7 +128,7 @@ def contour_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iter
 def _sizes_fit(
     scene: TankParts, index: int, body: AnyFloat, contour: Contour | SolidOfRevolution
 ) -> Iterator[InitErrorDetails]:
-    width, height = _extents(contour.bounds)
+    width, height = extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
         yield problem_at(
@@ -213,9 +212,9 @@ def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat) -> Iterator[Init
             )
 
 
-def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: Box) -> Iterator[InitErrorDetails]:
     left, right, low, high = bounds
-    gap = SMALLEST_GAP * max(_extents(bounds))
+    gap = SMALLEST_GAP * max(extents(bounds))
     length = scene.tank.length
     if scene.is_open:
         yield from _lies_in_the_stretch(scene, index, body)
@@ -280,8 +279,8 @@ def _limits(scene: TankParts, body: AnyFloat) -> tuple[float, float | None]:
     return -scene.liquid[0].depth, scene.liquid[1].depth if len(scene.liquid) == 2 else None
 
 
-def _arms_fit(index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
-    longest = LONGEST_ARM * max(_extents(bounds))
+def _arms_fit(index: int, body: AnyFloat, bounds: Box) -> Iterator[InitErrorDetails]:
+    longest = LONGEST_ARM * max(extents(bounds))
     for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
         value = getattr(body, key)
         if value is not None and not least <= abs(value) <= longest:
@@ -293,133 +292,7 @@ def _arms_fit(index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDet
             )
 
 
-def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
-    boxes = [_box(scene, index, body) for index, body in enumerate(scene.body)]
-    for first, second in _neighbours(scene, boxes):
-        gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
-        if _nearer_than(gap, boxes[first], boxes[second]):
-            left, right, _, _ = boxes[first]
-            key = "position" if _is_float(scene, second) else "start"
-            yield problem_at(
-                ("body", second, *(() if scene.is_revolved else (key,))),
-                None if scene.is_revolved else scene.body[second].start,
-                f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
-                remedy=f"Leave a gap of at least {gap:g} m between them",
-            )
-
-
-def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
-    """Pairs of bodies, at least one of them a float, that overlap in x or nearly so, by a sweep from left to right."""
-    if not scene.floats:
-        return []
-    widest_gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index, _ in scene.floats)
-    pairs, beside = [], list[int]()
-    for index in sorted(range(len(boxes)), key=lambda index: boxes[index][0]):
-        beside = [other for other in beside if boxes[other][1] + widest_gap > boxes[index][0]]
-        pairs += [
-            (min(index, other), max(index, other))
-            for other in beside
-            if _is_float(scene, index) or _is_float(scene, other)
-        ]
-        beside.append(index)
-    return sorted(pairs)
-
-
-def _is_float(scene: TankParts, index: int) -> bool:
-    return isinstance(scene.body[index], AnyFloat)
-
-
-def _box(scene: TankParts, index: int, body: AnyBody) -> _Box:
-    if not isinstance(body, AnyFloat):
-        height = scene.height_of(scene.level_of(body))
-        return body.start, body.end, height, height
-    from hydroelastic.scenes.models.floats import placed_float
-
-    return placed_float(scene, index).hull.bounds
-
-
-def _nearer_than(gap: float, one: _Box, other: _Box) -> bool:
-    """Whether two boxes overlap or come nearer than a gap, in both directions."""
-    beside = max(one[0], other[0]) - min(one[1], other[1])
-    over = max(one[2], other[2]) - min(one[3], other[3])
-    return beside < gap and over < gap
-
-
-def _extents(bounds: _Box) -> tuple[float, float]:
+def extents(bounds: Box) -> tuple[float, float]:
+    """Return width and height of a box."""
     left, right, low, high = bounds
     return right - left, high - low
-
-
-def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
-    for index, body in scene.floats:
-        from hydroelastic.scenes.models.floats import placed_float
-
-        placed = placed_float(scene, index)
-        at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
-        found = {"roll", "pitch"} & {*body.motions}
-        if not found or body.unstable == "solve" or stiffness >= 0.0:
-            continue
-        # Height of the centre of mass at which the roll stiffness is zero.
-        arm = stiffness / (at_rest.mass * scene.tank.gravity)
-        keys = ("centre_of_mass", "vertical_centre_of_gravity")
-        given = next((key for key in keys if getattr(body, key) is not None), None)
-        above_water = given == keys[1] or keys[0] not in type(body).model_fields
-        height = at_rest.centre_of_mass[1] - (at_rest.level if above_water else at_rest.reference_level)
-        yield problem_at(
-            ("body", index, given or "motions"),
-            getattr(body, given) if given else ", ".join(body.motions),
-            f"the float capsizes: its centre of mass lies {height:g} m above "
-            f"{'the still level' if above_water else 'its reference level'}, and the metacentre {-arm:.3g} m lower",
-            allowed=f"a {keys[above_water]} of at most {height + arm:g} m",
-            remedy=f'Leave {found.pop()} out of the motions, or set unstable = "solve"',
-        )
-
-
-def _springs_let_floats_rest(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """A negative stiffness, as of a mechanism, must be less than that of gravity and of the other springs."""
-    for index, body in scene.floats:
-        from hydroelastic.scenes.models.floats import held_float, placed_float
-
-        held = held_float(scene, index, placed_float(scene, index))
-        if held.springs and body.unstable != "solve":
-            for motion in body.motions:
-                stiffness = held.stiffness[PLACES[motion], PLACES[motion]]
-                if stiffness < 0.0:
-                    yield problem_at(
-                        ("body", index, "motions"),
-                        motion,
-                        "its springs push the float away from its rest: with that of gravity the stiffness is "
-                        f"{stiffness:.4g}",
-                        remedy='Make the stiffness of [[attachment]] larger, or set unstable = "solve"',
-                    )
-
-
-def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
-    thin = [(index, body.position) for index, body in scene.floats if body.boundary == "thin"]
-    for other, section in scene.floats:
-        if section.boundary == "thin" or not thin:
-            continue
-        # The import of SciPy is slow, and most scenes have no float.
-        from hydroelastic.scenes.models.floats import placed_float
-
-        left, right = placed_float(scene, other).hull.bounds[:2]
-        for index, position in thin:
-            if left < position < right:
-                yield problem_at(
-                    ("body", index, "position"),
-                    position,
-                    f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "
-                    f"{left:g} to {right:g} m",
-                    allowed=f"below {left:g} or above {right:g} m",
-                    remedy='Move it, or set boundary = "exact"',
-                )
-
-
-CHECKS_OF_FLOATS_AT_REST = (
-    _bodies_keep_apart,
-    _thin_floats_have_free_liquid,
-    _floats_are_stable,
-    _springs_let_floats_rest,
-)
-"""What asks where the floats rest, when that is known to be in the tank."""

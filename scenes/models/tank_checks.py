@@ -10,7 +10,8 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_are_in_equilibrium
+from hydroelastic.scenes.models.float_checks import floats_are_in_equilibrium
+from hydroelastic.scenes.models.float_rest_checks import CHECKS_OF_FLOATS_AT_REST
 from hydroelastic.scenes.models.open_checks import (
     bodies_are_all_sections_or_all_solids,
     closed_tanks_have_no_open_water_keys,

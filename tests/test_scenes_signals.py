@@ -31,7 +31,7 @@ sys.argv = ["hydroelastic", *{arguments!r}]
 sys.addaudithook(send)
 runpy.run_module("hydroelastic.scenes", run_name="__main__")
 """
-STARTED = [("import", "click"), ("import", "numpy"), ("import", "mpi4py.MPI"), ("import", "scipy.io")]
+STARTED = [("import", "click"), ("import", "numpy"), ("import", "mpi4py.MPI"), ("import", "scipy.io._netcdf")]
 WRITING = [("open", "response.csv"), ("open", "dataset.nc"), ("open", "manifest.json")]
 ENDING = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 

@@ -17,7 +17,7 @@ from hydroelastic.meshes.nearest import Sources
 from hydroelastic.meshes.tank import build_tank_mesh
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.kinds import checker_of
-from hydroelastic.scenes.models import float_checks, floats
+from hydroelastic.scenes.models import float_rest_checks, floats
 from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_SECTIONS, Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
@@ -120,8 +120,8 @@ def test_the_mesh_asks_only_what_is_near_for_the_size_of_an_element(monkeypatch:
 
 def test_each_float_is_placed_once_and_compared_with_its_neighbours(monkeypatch: pytest.MonkeyPatch) -> None:
     compared = []
-    nearer = float_checks._nearer_than
-    monkeypatch.setattr(float_checks, "_nearer_than", lambda *boxes: compared.append(boxes) or nearer(*boxes))
+    nearer = float_rest_checks._nearer_than
+    monkeypatch.setattr(float_rest_checks, "_nearer_than", lambda *boxes: compared.append(boxes) or nearer(*boxes))
     floats._placed.cache_clear()
     row_of_floats(MOST_BODIES)
     assert floats._placed.cache_info().misses == MOST_BODIES

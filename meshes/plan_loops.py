@@ -207,6 +207,11 @@ class PlanRegion:
         return self.outside.contains(point) and not any(hole.contains(point) for hole in self.inside)
 
 
+def image_count(mirrors: Mirrors) -> int:
+    """Return the number of parts that planes of symmetry make."""
+    return 2 ** sum(mirror is not None for mirror in mirrors)
+
+
 def kept_by(mirrors: Mirrors, points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
     """Return which points lie on the kept side of mirror planes, or as close to them as said."""
     kept = np.full(len(points), True)

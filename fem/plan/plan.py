@@ -37,7 +37,7 @@ from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
 from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
-from hydroelastic.meshes.plan_loops import Mirrors, room_between
+from hydroelastic.meshes.plan_loops import Mirrors, image_count, room_between
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
@@ -358,7 +358,7 @@ def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
         geometry_degree=min(max(resolution.degree, 4), 8),
         mirrors=mirrors,
     )
-    images = 2 ** sum(mirror is not None for mirror in mirrors)
+    images = image_count(mirrors)
     return PlanParts(
         tank=tank,
         resolution=resolution,

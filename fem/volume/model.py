@@ -19,7 +19,7 @@ from hydroelastic.fem.volume.pencil import SolverOf, moving_surfaces, volume_pen
 from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID, LOWER_LIQUID
-from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.meshes.volume import MIRRORS
 from hydroelastic.physics.dofs import body_name
@@ -54,11 +54,6 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
             None if slope else mirror for mirror, slope in zip((along, across), tank.bed.slope, strict=True)
         )
     return along, across
-
-
-def image_count(mirrors: Mirrors) -> int:
-    """Return the number of parts that planes of symmetry make."""
-    return 2 ** sum(mirror is not None for mirror in mirrors)
 
 
 def _is_in_plane(solid: SolidFloat, axis: int, middle: float) -> bool:

@@ -14,7 +14,7 @@ from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenum
 from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
 from hydroelastic.meshes.edge_layers import LAYER_RATIO
-from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.volume import CELLS_OF_A_CUBE, VolumeSizes
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.plate import Rectangle
@@ -332,7 +332,7 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
     of_edges = _CELLS_OF_EDGES + _CELLS_OF_LAYERS * sizes.layers * (sizes.layers + 1)
     cells = CELLS_OF_A_CUBE * tank.plan.area * tank.depth / sizes.bulk**3 + of_edges * sum(lengths) / sizes.edge
-    return float(cells / 2 ** sum(mirror is not None for mirror in mirrors))
+    return float(cells / image_count(mirrors))
 
 
 def expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: Mirrors) -> float:

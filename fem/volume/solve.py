@@ -36,7 +36,7 @@ from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.eigenmodes import volume_modes
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
-from hydroelastic.fem.volume.model import VolumeModel, image_count, volume_mirrors
+from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import (
     VolumeErrors,
@@ -47,6 +47,7 @@ from hydroelastic.fem.volume.resolution import (
     with_refinements,
 )
 from hydroelastic.meshes.distribute import NodedMesh
+from hydroelastic.meshes.plan_loops import image_count
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import unknown_count
 from hydroelastic.physics.volume_tank import VolumeTank

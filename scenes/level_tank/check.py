@@ -177,6 +177,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
     from hydroelastic.fem.volume.resolution import expected_unknowns, volume_resolution, with_refinements
+    from hydroelastic.meshes.plan_loops import image_count
     from hydroelastic.meshes.tagged_mesh import MeshError
     from hydroelastic.meshes.tetrahedra import unknown_count
 
@@ -194,7 +195,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     refinements = sizes.refinements if made.surfaces else 0
     unknowns = unknown_count(made.noded, resolution.degree, refinements)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
-    parts = 2 ** sum(mirror is not None for mirror in mirrors)
+    parts = image_count(mirrors)
     if parts > 1:
         yield f"  Planes of symmetry leave {parts} problems on {'a half' if parts == 2 else 'a quarter'} of the tank."
     yield (

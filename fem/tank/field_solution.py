@@ -5,7 +5,7 @@ Modes of the halves are sorted into one ascending list, with the amplitudes of t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -32,6 +32,10 @@ PartPencils = dict[Parity | None, CoupledPencil]
 """The eigenproblems of a scene by the symmetry of their modes; ``None`` is all of them, on the whole tank."""
 
 
+Origin = tuple[int, int]
+"""Index of the part of a mode, and its index among the modes of that part."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Part:
     """One eigenproblem of a scene.
@@ -56,20 +60,16 @@ class FieldSolution:
         parts: the eigenproblems.
         bodies: the bodies of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
-        origins: index of the part, and index in that part, of each mode.
-        growing_parts: index of the part of each growing mode.
+        origins: of each mode.
+        growing_origins: of each growing mode.
     """
 
     mesh: TankMesh
     parts: tuple[Part, ...]
     bodies: tuple[Body, ...]
     modes: ModeSet
-    origins: tuple[tuple[int, int], ...]
-    growing_parts: tuple[int, ...] = ()
-
-    def parts_of(self, indices: list[int]) -> list[int]:
-        """Return the index of the part of each of some modes."""
-        return [self.origins[index][0] for index in indices]
+    origins: tuple[Origin, ...]
+    growing_origins: tuple[Origin, ...] = ()
 
     @property
     def dofs(self) -> int:
@@ -168,10 +168,15 @@ def solve_parts(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], pencils: Pa
     return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
 
 
+def share_of_modes(parts: int, count: int) -> int:
+    """Return the number of modes that each of some parts is solved for first, if some are asked for of all."""
+    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
+    return count if parts == 1 else count // 2 + 2
+
+
 def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
     """Solve each part for its share of the modes, and for more where the shares are not enough."""
-    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
-    shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
+    shares = [share_of_modes(len(pencils), count)] * len(pencils)
     parts = [
         Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
         for (parity, pencil), share in zip(pencils.items(), shares, strict=True)
@@ -236,7 +241,9 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
             ),
         ),
         origins=origins,
-        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
+        growing_origins=tuple(
+            (number, place) for number, part in enumerate(parts) for place in range(len(part.modes.growing))
+        ),
     )
 
 
@@ -289,17 +296,23 @@ def _extension(
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:
-    """Whether the inertia of K − σM in each part confirms the number of modes below σ, in the widest of the last
-    gaps."""
-    values = solution.modes.eigenvalues
-    if len(values) < 2:
-        shift = 2.0 * float(values[-1]) if len(values) else 1.0
-    else:
-        gaps = [upper / lower for lower, upper in pairwise(values)]
-        first = max(0, len(gaps) - 3)
-        widest = first + int(np.argmax(gaps[first:]))
-        shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    """Whether the inertia of K − σM in each part confirms the number of modes below σ, of `counted_below`."""
+    shift = counted_below(solution.modes.eigenvalues)
+    return counts_agree(solution, shift, [count_below(part.pencil, shift) for part in solution.parts])
+
+
+def counted_below(eigenvalues: np.ndarray) -> float:
+    """Return σ, below which modes are counted: in the widest of the last gaps between them."""
+    if len(eigenvalues) < 2:
+        return 2.0 * float(eigenvalues[-1]) if len(eigenvalues) else 1.0
+    gaps = [upper / lower for lower, upper in pairwise(eigenvalues.tolist()[-4:])]
+    widest = len(eigenvalues) - 1 - len(gaps) + int(np.argmax(gaps))
+    return float(np.sqrt(eigenvalues[widest] * eigenvalues[widest + 1]))
+
+
+def counts_agree(solution: FieldSolution, shift: float, counts: Sequence[int]) -> bool:
+    """Return whether the numbers of modes below σ, counted in each part, are those of the modes found."""
     return all(
-        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) + len(part.modes.growing)
-        for part in solution.parts
+        count == np.count_nonzero(part.modes.eigenvalues < shift) + len(part.modes.growing)
+        for part, count in zip(solution.parts, counts, strict=True)
     )

@@ -207,7 +207,9 @@ def _with_tones(
     seen = [tone.certain and not _is_hidden(field.modes.eigenvalues, tone, tolerance) for tone in found]
     indices = sorted({tone.index for tone, is_seen in zip(found, seen, strict=True) if is_seen})
     modes = [field.modes.completed(index) for index in indices]
-    causes = frequency_errors(field, modes, field.parts_of(indices), resolution, tank, infinite_frequency=True)
+    causes = frequency_errors(
+        field, modes, [field.origins[index] for index in indices], resolution, tank, infinite_frequency=True
+    )
     tones = {
         index: PressureReleaseTone(eigenvalue=mode.eigenvalue, error=float(error))
         for index, mode, error in zip(indices, modes, causes.total, strict=True)

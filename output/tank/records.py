@@ -139,8 +139,8 @@ def growing_motions(solution: TankSolution) -> list[Values]:
             "symmetry": solution.field.parts[part].parity,
             "kind": mode_kind(mode, solution.field.bodies, solution.field.surfaces),
         }
-        for mode, part, error in zip(
-            solution.modes.growing, solution.field.growing_parts, solution.growing_errors, strict=True
+        for mode, (part, _), error in zip(
+            solution.modes.growing, solution.field.growing_origins, solution.growing_errors, strict=True
         )
     ]
     return sorted(rows, key=lambda row: -row["growth_rate"])

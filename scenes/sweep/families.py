@@ -31,10 +31,12 @@ class Family:
         sample: some scenes of the grid, with the first and the last one: all take a resolution that suffices for them,
             and the directions of their motions, so that the result of a point does not depend on which points were
             solved before.
+        scenes: all of them.
     """
 
     name: str
     sample: tuple[TankScene, ...]
+    scenes: tuple[TankScene, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +60,11 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
     samples = {liquid: _sample(found) for liquid, found in members.items() if len(found) >= _FEWEST}
     return Families(
         known={
-            liquid: Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
+            liquid: Family(
+                name=_hash(liquid, *(one.model_dump_json() for one in sample)),
+                sample=sample,
+                scenes=tuple(members[liquid]),
+            )
             for liquid, sample in samples.items()
         }
     )
@@ -100,5 +106,13 @@ def liquids_of(family: Family) -> SharedLiquids:
         LAST.clear()
         LAST[family.name] = shared_liquids(
             [physical_tank(scene) for scene in family.sample], tolerance=asked.tolerance, modes=asked.modes
+        )
+        from hydroelastic.fem.tank.together import attempt_together
+
+        attempt_together(
+            LAST[family.name],
+            [physical_tank(scene) for scene in family.scenes if scene not in family.sample],
+            tolerance=asked.tolerance,
+            modes=asked.modes,
         )
     return LAST[family.name]

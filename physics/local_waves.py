@@ -6,7 +6,6 @@ counts the modes below ω well enough to choose a mesh; the a-posteriori estimat
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,6 +16,7 @@ from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 # Bounds of dimensionless wavenumbers: waves longer than a million tank lengths are left out.
 _LEAST, _LARGEST = 1e-6, 1e12
+_TINY = 1e-300
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,5 +104,22 @@ def _where_reached(rising: Callable[[float], float], wanted: float, bounds: tupl
     """The first value of a geometric sequence with steps e^step between bounds where a rising function has reached
     what is wanted; the upper bound where it has not."""
     low, high = bounds
-    count = round(log(high / low) / step)
-    return low * exp(step * bisect_left(range(count), wanted, key=lambda n: rising(low * exp(step * n))))
+
+    def excess(number: int) -> float:
+        return log(max(rising(low * exp(step * number)), _TINY) / wanted)
+
+    below, above = 0, round(log(high / low) / step)
+    first, last, side = excess(below), excess(above), 0
+    if first >= 0.0 or last < 0.0:
+        return low if first >= 0.0 else high
+    # The rule of false position on logarithmic scales, in which functions are nearly straight; an end that stays twice
+    # counts half (Illinois).
+    while above - below > 1:
+        between = below + round((above - below) * first / (first - last))
+        number = min(max(between, below + 1), above - 1)
+        value = excess(number)
+        if value < 0.0:
+            below, first, last, side = number, value, last * (0.5 if side < 0 else 1.0), -1
+        else:
+            above, last, first, side = number, value, first * (0.5 if side > 0 else 1.0), 1
+    return low * exp(step * above)

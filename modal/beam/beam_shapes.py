@@ -59,7 +59,7 @@ def beam_shapes(beam: Beam, count: int) -> BeamShapes:
     return _closed_shapes(beam, count) if beam.is_uniform else _computed_shapes(beam, count)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=256)
 def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     alike = _alike_shapes(beam.ends == "guided", beam.length, count)
     return replace(

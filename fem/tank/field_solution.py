@@ -258,8 +258,12 @@ def _extended(mode: Mode, extension: np.ndarray, shares: np.ndarray) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
     own = extension.shape[1]
-    return replace(
-        mode,
+    return Mode(
+        eigenvalue=mode.eigenvalue,
+        values=mode.values,
+        displaced=mode.displaced,
+        shaped=mode.shaped,
+        residual=mode.residual,
         body_amplitudes=extension @ mode.body_amplitudes,
         energy=np.concatenate([shares @ mode.energy[:own], mode.energy[own:]]),
     )

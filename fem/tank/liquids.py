@@ -21,6 +21,7 @@ from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, part_models
+from hydroelastic.fem.tank.released_beam import ReleasedModes, released_modes
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     infinite_frequency_resolution,
@@ -80,6 +81,10 @@ class Liquids:
         """Return the resolution of the first attempt at the infinite-frequency limit."""
         return infinite_frequency_resolution(tank, tolerance, expected_tones(tank))
 
+    def released(self, tank: Tank, count: int) -> ReleasedModes | None:
+        """Return the modes of the infinite-frequency limit where these need no mesh, see `released_modes`."""
+        return released_modes([tank], count)[0]
+
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False
     ) -> TankMesh:
@@ -115,6 +120,7 @@ class SharedLiquids(Liquids):
             before.
         solved: solutions by tank in SI units, tolerance and number of modes.
         begun: first attempts that are made, by the same.
+        known_released: modes of the infinite-frequency limit, by dimensionless tank and number of dry modes.
     """
 
     of_field: Resolution
@@ -122,6 +128,7 @@ class SharedLiquids(Liquids):
     growing: bool = True
     solved: dict[tuple[Tank, float, int], object] = field(default_factory=dict)
     begun: dict[tuple[Tank, float, int], FirstAttempt] = field(default_factory=dict)
+    known_released: dict[tuple[Tank, int], ReleasedModes | None] = field(default_factory=dict)
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -142,6 +149,10 @@ class SharedLiquids(Liquids):
     def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
         """See `Liquids.first_of_limit` and `first`."""
         return self.of_limit
+
+    def released(self, tank: Tank, count: int) -> ReleasedModes | None:
+        """See `Liquids.released`; those that are known are handed out once."""
+        return self.known_released.pop((tank, count), None) or super().released(tank, count)
 
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False

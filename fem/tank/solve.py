@@ -39,6 +39,7 @@ from hydroelastic.fem.tank.resolution import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.fem.tank.together import attempt_together
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.physics.rigid_motions import mode_count
@@ -334,6 +335,7 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
     limits = [ANEW.first_of_limit(tank, workable_tolerance(tolerance, tank.depth)) for tank in scaled]
     fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]
     liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
+    attempt_together(liquids, tanks, tolerance=tolerance, modes=modes)
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
     liquids.of_field = finest([one.resolution for one in solved])

@@ -28,6 +28,7 @@ from hydroelastic.fem.tank.field_solution import (
     solve_parts,
 )
 from hydroelastic.fem.tank.liquids import FirstAttempt, SharedLiquids
+from hydroelastic.fem.tank.released_beam import released_modes
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.tank import Tank
 
@@ -55,6 +56,10 @@ def attempt_together(liquids: SharedLiquids, tanks: Sequence[Tank], *, tolerance
     with watch.stage("errors"):
         asked = [_asked(attempt.tank, field, modes) for attempt, field in zip(attempts, fields, strict=True)]
         _estimate(fields, asked)
+    with watch.stage("pressure release"):
+        dimensionless, count = [attempt.tank for attempt in attempts], liquids.of_limit.shapes[0]
+        of_limit = released_modes(dimensionless, count)
+        liquids.known_released |= {(tank, count): one for tank, one in zip(dimensionless, of_limit, strict=True)}
     seconds = {stage: value / len(tanks) for stage, value in watch.seconds.items()}
     for tank, attempt, field, agrees in zip(tanks, attempts, fields, counted, strict=True):
         liquids.begun[tank, tolerance, modes] = replace(attempt, field=field, counted=agrees, seconds=seconds)

@@ -75,7 +75,7 @@ def released_modes(tanks: Sequence[Tank], count: int) -> list[ReleasedModes | No
         or is too shallow for the expansion.
     """
     found: list[ReleasedModes | None] = [None] * len(tanks)
-    # Those that float upright have two motions without stiffness less.
+    # Without hydrostatic restoring two motions have no stiffness, and are condensed.
     alike: dict[bytes, list[tuple[int, Body, np.ndarray]]] = {}
     for place, tank in enumerate(tanks):
         added_mass = _added_mass(tank, count)

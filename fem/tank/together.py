@@ -34,7 +34,7 @@ from hydroelastic.physics.tank import Tank
 
 
 def attempt_together(liquids: SharedLiquids, tanks: Sequence[Tank], *, tolerance: float, modes: int) -> None:
-    """Make the first attempts at some tanks, with which `solve_tank` then goes on.
+    """Make the first attempts at some tanks, with which `solve_tank` then goes on; earlier ones are forgotten.
 
     Args:
         liquids: of all of them.
@@ -59,7 +59,8 @@ def attempt_together(liquids: SharedLiquids, tanks: Sequence[Tank], *, tolerance
     with watch.stage("pressure release"):
         dimensionless, count = [attempt.tank for attempt in attempts], liquids.of_limit.shapes[0]
         of_limit = released_modes(dimensionless, count)
-        liquids.known_released |= {(tank, count): one for tank, one in zip(dimensionless, of_limit, strict=True)}
+        liquids.known_released = {(tank, count): one for tank, one in zip(dimensionless, of_limit, strict=True)}
+    liquids.begun.clear()
     seconds = {stage: value / len(tanks) for stage, value in watch.seconds.items()}
     for tank, attempt, field, agrees in zip(tanks, attempts, fields, counted, strict=True):
         liquids.begun[tank, tolerance, modes] = replace(attempt, field=field, counted=agrees, seconds=seconds)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import sha256
 from math import ceil
@@ -20,33 +20,40 @@ if TYPE_CHECKING:
 _FEWEST = 4
 # One more scene of the sample for so many points: of few points further directions cost less than further solutions.
 _FOR_EACH = 32
+# Points that are solved together: with more of them their arrays leave the caches of a processor.
+_TOGETHER = 64
 
 
 @dataclass(frozen=True, kw_only=True)
 class Family:
-    """Closed tanks that differ only in what does not touch the liquid.
+    """Closed tanks that differ only in what does not touch the liquid, and some of them that are solved together.
 
     Attributes:
-        name: a hash, which also tells families of different sweeps apart.
+        name: a hash of all of them, which also tells families of different sweeps apart.
         sample: some scenes of the grid, with the first and the last one: all take a resolution that suffices for them,
             and the directions of their motions, so that the result of a point does not depend on which points were
             solved before.
-        scenes: all of them.
+        batch: number of those that are solved together.
+        together: their scenes, without those of the sample; none for a point beside the grid.
     """
 
     name: str
     sample: tuple[TankScene, ...]
-    scenes: tuple[TankScene, ...] = ()
+    batch: int = -1
+    together: tuple[TankScene, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Families:
-    """The families of a sweep, by what their liquid depends on."""
+    """The families of a sweep, by what their liquid depends on, and by the scenes of the grid."""
 
     known: dict[str, Family]
+    of_scenes: dict[TankScene, Family]
 
     def of(self, scene: Scene | SceneError) -> Family | None:
         """Return the family of a scene; ``None`` without one."""
+        if isinstance(scene, TankScene) and scene in self.of_scenes:
+            return self.of_scenes[scene]
         return self.known.get(_liquid_of(scene))
 
 
@@ -57,17 +64,19 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
         if isinstance(scene, TankScene):
             members.setdefault(_liquid_of(scene), []).append(scene)
     members.pop("", None)
-    samples = {liquid: _sample(found) for liquid, found in members.items() if len(found) >= _FEWEST}
-    return Families(
-        known={
-            liquid: Family(
-                name=_hash(liquid, *(one.model_dump_json() for one in sample)),
-                sample=sample,
-                scenes=tuple(members[liquid]),
-            )
-            for liquid, sample in samples.items()
-        }
-    )
+    known: dict[str, Family] = {}
+    of_scenes: dict[TankScene, Family] = {}
+    for liquid, own in members.items():
+        if len(own) < _FEWEST:
+            continue
+        sample = _sample(own)
+        family = Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
+        known[liquid] = family
+        for batch, first in enumerate(range(0, len(own), _TOGETHER)):
+            together = own[first : first + _TOGETHER]
+            others = tuple(scene for scene in together if scene not in sample)
+            of_scenes |= dict.fromkeys(together, replace(family, batch=batch, together=others))
+    return Families(known=known, of_scenes=of_scenes)
 
 
 def _sample(scenes: list[TankScene]) -> tuple[TankScene, ...]:
@@ -92,27 +101,33 @@ def _hash(*texts: str) -> str:
     return sha256("\n".join(texts).encode()).hexdigest()
 
 
-LAST: dict[str, SharedLiquids] = {}
-"""The liquids of the last family, by its name."""
+@dataclass
+class _Shared:
+    """The liquids of a family, and the batch whose first attempts are made."""
+
+    liquids: SharedLiquids
+    batch: int = -1
+
+
+LAST: dict[str, _Shared] = {}
+"""Those of the last family, by its name."""
 
 
 def liquids_of(family: Family) -> SharedLiquids:
-    """Return the liquids of a family, made when it is first asked for; those of the last family only are kept."""
+    """Return the liquids of a family, made when it is first asked for, with the first attempts at the tanks of its
+    batch; those of the last family and batch only are kept."""
+    from hydroelastic.fem.tank.solve import shared_liquids
+    from hydroelastic.fem.tank.together import attempt_together
+    from hydroelastic.scenes.models.physical import physical_tank
+
+    asked = family.sample[0].accuracy
     if family.name not in LAST:
-        from hydroelastic.fem.tank.solve import shared_liquids
-        from hydroelastic.scenes.models.physical import physical_tank
-
-        asked = family.sample[0].accuracy
         LAST.clear()
-        LAST[family.name] = shared_liquids(
-            [physical_tank(scene) for scene in family.sample], tolerance=asked.tolerance, modes=asked.modes
-        )
-        from hydroelastic.fem.tank.together import attempt_together
-
-        attempt_together(
-            LAST[family.name],
-            [physical_tank(scene) for scene in family.scenes if scene not in family.sample],
-            tolerance=asked.tolerance,
-            modes=asked.modes,
-        )
-    return LAST[family.name]
+        tanks = [physical_tank(scene) for scene in family.sample]
+        LAST[family.name] = _Shared(shared_liquids(tanks, tolerance=asked.tolerance, modes=asked.modes))
+    shared = LAST[family.name]
+    if family.batch not in (-1, shared.batch):
+        shared.batch, tanks = family.batch, [physical_tank(scene) for scene in family.together]
+        if tanks:
+            attempt_together(shared.liquids, tanks, tolerance=asked.tolerance, modes=asked.modes)
+    return shared.liquids

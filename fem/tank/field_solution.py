@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 
@@ -309,9 +308,9 @@ def counted_below(eigenvalues: np.ndarray) -> float:
     """Return σ, below which modes are counted: in the widest of the last gaps between them."""
     if len(eigenvalues) < 2:
         return 2.0 * float(eigenvalues[-1]) if len(eigenvalues) else 1.0
-    gaps = [upper / lower for lower, upper in pairwise(eigenvalues.tolist()[-4:])]
-    widest = len(eigenvalues) - 1 - len(gaps) + int(np.argmax(gaps))
-    return float(np.sqrt(eigenvalues[widest] * eigenvalues[widest + 1]))
+    last = eigenvalues[-4:]
+    widest = int(np.argmax(last[1:] / last[:-1]))
+    return float(np.sqrt(last[widest] * last[widest + 1]))
 
 
 def counts_agree(solution: FieldSolution, shift: float, counts: Sequence[int]) -> bool:

@@ -180,7 +180,7 @@ def _released(
     if not _is_hidden(modes.eigenvalues, found, tolerance):
         tone = PressureReleaseTone(eigenvalue=float(modes.eigenvalues[found.index]), error=errors.largest_total)
     return Attempt(
-        result=InfiniteFrequencyLimit(tones=(tone,), eigenvalues=tuple(modes.eigenvalues.tolist())),
+        result=InfiniteFrequencyLimit(tones=(tone,), eigenvalues=tuple(map(float, modes.eigenvalues))),
         causes=errors,
         resolution=resolution,
         missing=int(tone is None),

@@ -120,7 +120,7 @@ class SharedLiquids(Liquids):
             before.
         solved: solutions by tank in SI units, tolerance and number of modes.
         begun: first attempts that are made, by the same.
-        known_released: modes of the infinite-frequency limit, by dimensionless tank and number of dry modes.
+        released_modes: of the infinite-frequency limit, by dimensionless tank and number of dry modes.
     """
 
     of_field: Resolution
@@ -128,7 +128,7 @@ class SharedLiquids(Liquids):
     growing: bool = True
     solved: dict[tuple[Tank, float, int], object] = field(default_factory=dict)
     begun: dict[tuple[Tank, float, int], FirstAttempt] = field(default_factory=dict)
-    known_released: dict[tuple[Tank, int], ReleasedModes | None] = field(default_factory=dict)
+    released_modes: dict[tuple[Tank, int], ReleasedModes | None] = field(default_factory=dict)
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
@@ -152,7 +152,7 @@ class SharedLiquids(Liquids):
 
     def released(self, tank: Tank, count: int) -> ReleasedModes | None:
         """See `Liquids.released`; those that are known are handed out once."""
-        return self.known_released.pop((tank, count), None) or super().released(tank, count)
+        return self.released_modes.pop((tank, count), None) or super().released(tank, count)
 
     def mesh(
         self, comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool = False

@@ -16,6 +16,7 @@ from hydroelastic.fem.inertia import shared_counts
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.shared_modes import CellErrors, solved_together
+from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.elastic_tone import participations
 from hydroelastic.fem.tank.field_solution import (
@@ -36,6 +37,8 @@ from hydroelastic.physics.tank import Tank
 def attempt_together(liquids: SharedLiquids, tanks: Sequence[Tank], *, tolerance: float, modes: int) -> None:
     """Make the first attempts at some tanks, with which `solve_tank` then goes on; earlier ones are forgotten.
 
+    Where one of them fails, none is made: `solve_tank` then makes each, and tells which it was.
+
     Args:
         liquids: of all of them.
         tanks: in SI units.
@@ -43,27 +46,38 @@ def attempt_together(liquids: SharedLiquids, tanks: Sequence[Tank], *, tolerance
         modes: the same.
     """
     watch = Stopwatch()
+    liquids.begun.clear()
     with watch.stage("plan"):
         attempts = [liquids.first_attempt(tank, tolerance, modes) for tank in tanks]
+    try:
+        made = _made(liquids, attempts, modes, watch)
+    except (EigenSolverError, np.linalg.LinAlgError):
+        return
+    seconds = {stage: value / len(tanks) for stage, value in watch.seconds.items()}
+    for tank, attempt in zip(tanks, made, strict=True):
+        liquids.begun[tank, tolerance, modes] = replace(attempt, seconds=seconds)
+
+
+def _made(liquids: SharedLiquids, attempts: list[FirstAttempt], modes: int, watch: Stopwatch) -> list[FirstAttempt]:
+    """The attempts, with what can be made of all of them at once."""
+    with watch.stage("pressure release"):
+        tanks, count = [attempt.tank for attempt in attempts], liquids.of_limit.shapes[0]
+        released = zip(tanks, released_modes(tanks, count), strict=True)
+        liquids.released_modes = {(tank, count): found for tank, found in released}
     with watch.stage("assemble"):
         problems = [_problems(liquids, attempt) for attempt in attempts]
     if not all(isinstance(one.answer, SharedAnswer) for _, pencils in problems for one in pencils.values()):
-        return
+        return attempts
     with watch.stage("solve"):
         fields = _fields(attempts, problems)
     with watch.stage("count"):
         counted = _counted(fields)
     with watch.stage("errors"):
-        asked = [_asked(attempt.tank, field, modes) for attempt, field in zip(attempts, fields, strict=True)]
-        _estimate(fields, asked)
-    with watch.stage("pressure release"):
-        dimensionless, count = [attempt.tank for attempt in attempts], liquids.of_limit.shapes[0]
-        of_limit = released_modes(dimensionless, count)
-        liquids.known_released = {(tank, count): one for tank, one in zip(dimensionless, of_limit, strict=True)}
-    liquids.begun.clear()
-    seconds = {stage: value / len(tanks) for stage, value in watch.seconds.items()}
-    for tank, attempt, field, agrees in zip(tanks, attempts, fields, counted, strict=True):
-        liquids.begun[tank, tolerance, modes] = replace(attempt, field=field, counted=agrees, seconds=seconds)
+        _estimate(fields, [_asked(tank, field, modes) for tank, field in zip(tanks, fields, strict=True)])
+    return [
+        replace(attempt, field=field, counted=confirmed)
+        for attempt, field, confirmed in zip(attempts, fields, counted, strict=True)
+    ]
 
 
 def _problems(liquids: SharedLiquids, attempt: FirstAttempt) -> tuple[TankMesh, PartPencils]:

@@ -19,9 +19,9 @@ from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
 from hydroelastic.scenes.sweep.families import families
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
-from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, failed, point_key
+from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, failed, point_key
 from hydroelastic.scenes.sweep.quantities import columns, quantities, shown_columns
-from hydroelastic.scenes.sweep.workers import Task, solved_tasks
+from hydroelastic.scenes.sweep.workers import solved_tasks
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.sweep.lines import Line

@@ -13,38 +13,18 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
 from itertools import groupby
 from multiprocessing import get_context, parent_process
 from typing import TypeVar
 
 from hydroelastic.scenes.errors import Problem, SceneError
-from hydroelastic.scenes.read import Scene
-from hydroelastic.scenes.sweep.families import Family
-from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, solve_point
+from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, solve_points
 
 # Points that share one liquid: of fewer, a second process saves less than its start, 0.6 s, and a liquid of its own
 # take. Measured on a beam in a tank: at 2.4 ms a point this is even at 1000.
 _FEWEST_OF_FAMILY = 1000
 
 _Result = TypeVar("_Result")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Task:
-    """One point to solve.
-
-    Attributes:
-        key: of the point in the journal.
-        scene: of the point.
-        name: of its folder, if it has one.
-        family: points that share their liquid with it, if there are any.
-    """
-
-    key: str
-    scene: Scene
-    name: str
-    family: Family | None
 
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
@@ -59,17 +39,16 @@ def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Ite
     Raises:
         SceneError: if the processes cannot be started.
     """
+    # Tasks that are solved together are one piece of work.
+    works = [list(own) for _, own in groupby(tasks, key=_work_of)]
     families = {task.family and task.family.name for task in tasks}
     if jobs == 1 or len(tasks) < (_FEWEST_OF_FAMILY if len(families) == 1 and None not in families else 2):
-        for task in tasks:
-            yield task, solve_point(task.scene, options, task.name, task.family)
+        for work in works:
+            yield from zip(work, solve_points(work, options), strict=True)
         return
     if parent_process() is not None:
         raise SceneError(Problem(key="jobs", wrong="a process of a sweep cannot start another sweep with more"))
-    # Tasks that are solved together are one piece of work.
-    left = [
-        list(own) for _, own in groupby(tasks, key=lambda task: task.key if task.family is None else id(task.family))
-    ]
+    left = works
     while left:
         survived, suspects = True, []
         for work, points in _pooled(tuple(left), options, min(jobs, len(left))):
@@ -94,8 +73,9 @@ def _died() -> SolvedPoint:
     return SolvedPoint(status="failed", reasons=(reason,))
 
 
-def _solved_here(tasks: Sequence[Task], options: PointOptions) -> list[SolvedPoint]:
-    return [solve_point(task.scene, options, task.name, task.family) for task in tasks]
+def _work_of(task: Task) -> object:
+    """What tasks that are solved together have in common."""
+    return task.key if task.family is None or task.family.batch < 0 else (task.family.name, task.family.batch)
 
 
 def _pooled(
@@ -117,7 +97,7 @@ def _pooled(
         running: dict[Future[list[SolvedPoint]], list[Task]] = {}
         for work in works:
             try:
-                running[pool.submit(_solved_here, work, options)] = work
+                running[pool.submit(solve_points, work, options)] = work
             except BrokenProcessPool:
                 yield work, None
             if len(running) > jobs:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -211,14 +212,13 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
     bodies = whole_bodies(tank, shapes)
-    extensions = [extension(tank, bodies, part.parity) for part in parts]
-    shares = [_shares(one) for one in extensions]
-    of_parts = [part.modes.elastic_amplitudes @ one.T for part, one in zip(parts, extensions, strict=True)]
+    extensions = [extension(tank, bodies, part.parity, len(part.pencil.surfaces)) for part in parts]
+    of_parts = [part.modes.elastic_amplitudes @ one.amplitudes.T for part, one in zip(parts, extensions, strict=True)]
     amplitudes = [of_parts[number][index] for number, index in origins]
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
-        return _extended(parts[number].modes.completed(index), extensions[number], shares[number])
+        return _extended(parts[number].modes.completed(index), extensions[number])
 
     return FieldSolution(
         mesh=mesh,
@@ -234,9 +234,7 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
             growing=tuple(
-                _extended(mode, matrix, share)
-                for part, matrix, share in zip(parts, extensions, shares, strict=True)
-                for mode in part.modes.growing
+                _extended(mode, one) for part, one in zip(parts, extensions, strict=True) for mode in part.modes.growing
             ),
         ),
         origins=origins,
@@ -246,41 +244,53 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     )
 
 
-def _shares(extension: np.ndarray) -> np.ndarray:
-    """Parts of the energy of each unknown of a part in those of the whole tank: like the squares of their
-    amplitudes."""
-    squares: np.ndarray = extension**2
-    return squares / squares.sum(axis=0)
-
-
-def _extended(mode: Mode, extension: np.ndarray, shares: np.ndarray) -> Mode:
+def _extended(mode: Mode, extension: Extension) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
-    own = extension.shape[1]
     return Mode(
         eigenvalue=mode.eigenvalue,
         values=mode.values,
         displaced=mode.displaced,
         shaped=mode.shaped,
         residual=mode.residual,
-        body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.concatenate([shares @ mode.energy[:own], mode.energy[own:]]),
+        body_amplitudes=extension.amplitudes @ mode.body_amplitudes,
+        energy=extension.energies @ mode.energy,
     )
 
 
-def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
-    """Return the matrix from the body unknowns of a part to those of the whole tank, each at unit generalized mass,
-    shape (unknowns of the whole tank, unknowns of the part)."""
+class Extension(NamedTuple):
+    """How the unknowns of a part become those of the whole tank.
+
+    Attributes:
+        amplitudes: matrix from the body unknowns of the part, each at unit generalized mass, shape (unknowns of the
+            whole tank, unknowns of the part).
+        energies: from shares in the potential energy, of body unknowns one by one and then of each surface.
+    """
+
+    amplitudes: np.ndarray
+    energies: np.ndarray
+
+
+def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None, surfaces: int = 0) -> Extension:
+    """Return how the unknowns of a part become those of the whole tank.
+
+    Args:
+        tank: the dimensionless tank.
+        bodies: of the whole tank.
+        parity: of the part; ``None`` is the whole tank.
+        surfaces: number of moving surfaces of the liquids.
+    """
     if parity is None:
-        return np.eye(sum(body.size for body in bodies))
+        size = sum(body.size for body in bodies)
+        return Extension(np.eye(size), np.eye(size + surfaces))
     twins = tuple((body, twin_of(tank, body)) for body in left_bodies(tank))
-    return _extension(tuple(body.parities for body in bodies), twins, parity)
+    return _extension(tuple(body.parities for body in bodies), twins, parity, surfaces)
 
 
 @lru_cache(maxsize=64)
 def _extension(
-    shapes: tuple[tuple[Parity, ...], ...], twins: tuple[tuple[int, int], ...], parity: Parity
-) -> np.ndarray:
+    shapes: tuple[tuple[Parity, ...], ...], twins: tuple[tuple[int, int], ...], parity: Parity, surfaces: int
+) -> Extension:
     offsets = np.cumsum([0, *map(len, shapes)])
     columns = []
     for body, twin in twins:
@@ -293,9 +303,15 @@ def _extension(
                 # In the mirror image odd shapes change their sign.
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
-    found = np.array(columns).reshape(len(columns), offsets[-1]).T
-    found.flags.writeable = False
-    return found
+    amplitudes = np.array(columns).reshape(len(columns), offsets[-1]).T
+    whole, own = amplitudes.shape
+    energies = np.zeros((whole + surfaces, own + surfaces))
+    # Energies are like the squares of amplitudes.
+    energies[:whole, :own] = amplitudes**2 / (amplitudes**2).sum(axis=0)
+    energies[whole:, own:] = np.eye(surfaces)
+    for matrix in (amplitudes, energies):
+        matrix.flags.writeable = False
+    return Extension(amplitudes, energies)
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:

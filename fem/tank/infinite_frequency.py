@@ -254,7 +254,7 @@ def _added_mass(
 def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Return the map from motions of the whole tank to those of a part (columns), with which energies of parts add
     up."""
-    columns = extension(tank, bodies, parity)
+    columns = extension(tank, bodies, parity).amplitudes
     if parity is None:
         return columns
     # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half has the

@@ -69,20 +69,21 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
     for liquid, own in members.items():
         if len(own) < _FEWEST:
             continue
-        sample = _sample(own)
+        places = _places_of_sample(len(own))
+        sample = tuple(own[place] for place in places)
         family = Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
         known[liquid] = family
         for batch, first in enumerate(range(0, len(own), _TOGETHER)):
-            together = own[first : first + _TOGETHER]
-            others = tuple(scene for scene in together if scene not in sample)
-            of_scenes |= dict.fromkeys(together, replace(family, batch=batch, together=others))
+            batched = range(first, min(first + _TOGETHER, len(own)))
+            others = tuple(own[place] for place in batched if place not in places)
+            one = replace(family, batch=batch, together=others)
+            of_scenes |= {own[place]: one for place in batched}
     return Families(known=known, of_scenes=of_scenes)
 
 
-def _sample(scenes: list[TankScene]) -> tuple[TankScene, ...]:
-    last = len(scenes) - 1
-    count = 1 + ceil(len(scenes) / _FOR_EACH)
-    return tuple(scenes[round(number * last / (count - 1))] for number in range(count))
+def _places_of_sample(scenes: int) -> list[int]:
+    count = 1 + ceil(scenes / _FOR_EACH)
+    return [round(number * (scenes - 1) / (count - 1)) for number in range(count)]
 
 
 @lru_cache(maxsize=256)

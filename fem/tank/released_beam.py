@@ -19,7 +19,7 @@ from hydroelastic.fem.modes import HIDDEN
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.error_estimates import ROUNDING_OF_SPREAD, FrequencyErrors
 from hydroelastic.fem.tank.mesh import is_plain
-from hydroelastic.fem.truncation import truncation_errors
+from hydroelastic.fem.truncation import elastic_places, omitted
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.tank_estimates import floating_beam
@@ -43,22 +43,24 @@ class ReleasedModes:
         eigenvalues: dimensionless λ, shape (modes,).
         elastic_amplitudes: of the dry modes at unit generalized mass, rigid motions without stiffness left out, shape
             (modes, dry modes).
+        truncation: relative error of each λ by the dry modes left out, see `fem.truncation`.
     """
 
     depth: float
     bodies: tuple[Body, ...]
     eigenvalues: np.ndarray
     elastic_amplitudes: np.ndarray
+    truncation: np.ndarray
 
     def errors_of(self, index: int) -> FrequencyErrors:
         """Return the relative errors of ω of one mode."""
-        own = slice(index, index + 1)
-        values, none = self.eigenvalues[own], np.zeros(1)
+        own, none = slice(index, index + 1), np.zeros(1)
+        values = self.eigenvalues[own]
         # An error of λ is twice that of ω. The liquid's expansion leaves none: its last eighth adds less than 2e-19.
         return FrequencyErrors(
             liquid=none,
             tips=none,
-            truncation=0.5 * truncation_errors(self.bodies, self.elastic_amplitudes[own], values),
+            truncation=0.5 * self.truncation[own],
             rounding=_ROUNDING * max(1.0, 0.1 / self.depth) + ROUNDING_OF_SPREAD * values / self.eigenvalues[0],
         )
 
@@ -84,16 +86,18 @@ def released_modes(tanks: Sequence[Tank], count: int) -> list[ReleasedModes | No
             alike.setdefault((body.stiffness == 0.0).tobytes(), []).append((place, body, added_mass))
     for group in alike.values():
         places, bodies, masses = zip(*group, strict=True)
-        solved = _solved(
-            np.array([body.stiffness for body in bodies]), np.array([body.mass for body in bodies]) + masses
-        )
-        for place, body, inverses, amplitudes in zip(places, bodies, *solved, strict=True):
-            seen = np.count_nonzero(inverses > HIDDEN * inverses[0])
+        stiffness = np.array([body.stiffness for body in bodies])
+        inverses, amplitudes = _solved(stiffness, np.array([body.mass for body in bodies]) + masses)
+        energies = stiffness[:, None, :] * amplitudes**2 * inverses[:, :, None]
+        truncation = omitted(energies[:, :, elastic_places(bodies[0].dofs)])
+        for number, place in enumerate(places):
+            seen = np.count_nonzero(inverses[number] > HIDDEN * inverses[number, 0])
             found[place] = ReleasedModes(
                 depth=tanks[place].depth,
-                bodies=(body,),
-                eigenvalues=1.0 / inverses[:seen],
-                elastic_amplitudes=amplitudes[:seen],
+                bodies=(bodies[number],),
+                eigenvalues=1.0 / inverses[number, :seen],
+                elastic_amplitudes=amplitudes[number, :seen],
+                truncation=truncation[number, :seen],
             )
     return found
 

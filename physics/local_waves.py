@@ -6,7 +6,6 @@ counts the modes below ω well enough to choose a mesh; the a-posteriori estimat
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,6 +16,8 @@ from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 # Bounds of dimensionless wavenumbers: waves longer than a million tank lengths are left out.
 _LEAST, _LARGEST = 1e-6, 1e12
+# Stands for zero in logarithms.
+_NOTHING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +103,27 @@ def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> fl
 
 def _where_reached(rising: Callable[[float], float], wanted: float, bounds: tuple[float, float], step: float) -> float:
     """The first value of a geometric sequence with steps e^step between bounds where a rising function has reached
-    what is wanted; the upper bound where it has not."""
+    what is wanted; the upper bound where it has not. By false position in logarithms, with the weight of an end that
+    stays halved (Illinois method)."""
     low, high = bounds
     count = round(log(high / low) / step)
-    return low * exp(step * bisect_left(range(count), wanted, key=lambda n: rising(low * exp(step * n))))
+
+    def excess(number: int) -> float:
+        return log(max(rising(low * exp(step * number)) / wanted, _NOTHING))
+
+    below, above = 0, count - 1
+    under, over = excess(below), excess(above)
+    if under >= 0.0 or over < 0.0:
+        return low if under >= 0.0 else low * exp(step * count)
+    was_below = None
+    while above - below > 1:
+        middle = below + round(under / (under - over) * (above - below))
+        middle = min(max(middle, below + 1), above - 1)
+        found = excess(middle)
+        is_below = found < 0.0
+        if is_below:
+            below, under, over = middle, found, over * (0.5 if was_below else 1.0)
+        else:
+            above, over, under = middle, found, under * (0.5 if was_below is False else 1.0)
+        was_below = is_below
+    return low * exp(step * above)

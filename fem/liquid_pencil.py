@@ -87,9 +87,12 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
         return None
     assert isinstance(pencil.solver, LiquidSolver)
     potentials = pencil.solver.solve_all(pencil.coupling)
-    columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
-    momentum = pencil.momentum.transposeMatMult(columns)
-    return liquid_answer(potentials, momentum.getDenseArray(), pencil.dense_restoring)
+    # Few unknowns of ψ are on the moving surfaces.
+    starts, columns, values = pencil.momentum.getValuesCSR()
+    moving = np.flatnonzero(np.diff(starts))
+    loads = np.zeros((len(moving), pencil.size))
+    loads[np.repeat(np.arange(len(moving)), np.diff(starts)[moving]), columns] = values
+    return liquid_answer(potentials, loads.T @ potentials[moving], pencil.dense_restoring)
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:

@@ -185,7 +185,8 @@ class Outline:
 
 def as_points(points: NDArray[np.float64]) -> list[Point]:
     """The rows of an array of shape (n, 2)."""
-    return [(x, y) for x, y in points.tolist()]
+    rows: Any = points.tolist()
+    return [(x, y) for x, y in rows]
 
 
 def enclosed_area(points: NDArray[np.float64]) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import basix
 import numpy as np
@@ -88,14 +89,22 @@ def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> It
         cells, places = cells[inside], places[inside]
     cell_type = basix.CellType[mesh.topology.cell_type.name]
     for place in np.unique(places):
-        corners = basix.geometry(cell_type)[basix.topology(cell_type)[dim - 1][place]]
-        edges = corners[1:] - corners[0]
+        corners, normal, facet_type = _reference_facet(cell_type, int(place))
         yield FacetGroup(
             mesh=mesh,
             cells=cells[places == place],
             place=int(place),
             reference_corners=corners,
-            reference_normal=basix.cell.facet_outward_normals(cell_type)[place]
-            * np.sqrt(np.linalg.det(edges @ edges.T)),
-            facet_type=basix.cell.subentity_types(cell_type)[dim - 1][place],
+            reference_normal=normal,
+            facet_type=facet_type,
         )
+
+
+@lru_cache(maxsize=16)
+def _reference_facet(cell_type: basix.CellType, place: int) -> tuple[np.ndarray, np.ndarray, basix.CellType]:
+    """Corners, normal and type of a facet of the reference cell, see `FacetGroup`."""
+    facets = len(basix.topology(cell_type)) - 2
+    corners = basix.geometry(cell_type)[basix.topology(cell_type)[facets][place]]
+    edges = corners[1:] - corners[0]
+    normal = basix.cell.facet_outward_normals(cell_type)[place] * np.sqrt(np.linalg.det(edges @ edges.T))
+    return corners, normal, basix.cell.subentity_types(cell_type)[facets][place]

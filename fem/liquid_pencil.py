@@ -17,7 +17,7 @@ from hydroelastic.fem.liquid import (
 from hydroelastic.fem.liquid_answer import LiquidAnswer, liquid_answer
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil, loads_on_first
-from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
 # Measured on one process: up to so many surface unknowns the answers to all of them at once, and dense linear algebra
@@ -45,13 +45,15 @@ def build_pencil(
     """
     laplace = matrices.laplace
     layers = closed_layers(liquid)
-    load = surface_fluxes(liquid, matrices, bodies, surfaces) if layers else None
+    of_bodies = [shape_loads(liquid, body, flux=True) for body in bodies]
+    fluxes = {body.surface: loads[-1] for body, loads in zip(bodies, of_bodies, strict=True)}
+    load = surface_fluxes(liquid, matrices, surfaces, tuple(fluxes.values())) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
     pencil = coupled_pencil(
         liquid,
         bodies=bodies,
         surfaces=surfaces,
-        body_coupling=_body_coupling(liquid, bodies, laplace) if bodies else None,
+        body_coupling=_body_coupling(of_bodies, laplace) if bodies else None,
         surface_blocks=matrices.surfaces,
         laplace=laplace,
         # A layer without moving surfaces has no flux to balance.
@@ -62,10 +64,13 @@ def build_pencil(
 
 
 def surface_fluxes(
-    liquid: LiquidSpace, matrices: LiquidMatrices, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]
+    liquid: LiquidSpace,
+    matrices: LiquidMatrices,
+    surfaces: tuple[LiquidSurface, ...],
+    of_bodies: tuple[np.ndarray, ...],
 ) -> np.ndarray:
-    """∫q over all moving surfaces, owned entries (collective)."""
-    load = surface_load(liquid, tuple(dict.fromkeys(body.surface for body in bodies)))
+    """∫q over all moving surfaces, owned entries, from those over the surfaces of bodies (collective)."""
+    load = sum(of_bodies, np.zeros(len(liquid.numbering.owned_dofs)))
     for surface, blocks in zip(surfaces, matrices.surfaces, strict=True):
         # A constant elevation; upwards is into the layer above.
         elevation, flux = blocks.coupling.createVecs()
@@ -87,12 +92,15 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
         return None
     assert isinstance(pencil.solver, LiquidSolver)
     potentials = pencil.solver.solve_all(pencil.coupling)
-    columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
-    momentum = pencil.momentum.transposeMatMult(columns)
-    return liquid_answer(potentials, momentum.getDenseArray(), pencil.dense_restoring)
+    # Few unknowns of ψ are on the moving surfaces.
+    starts, columns, values = pencil.momentum.getValuesCSR()
+    moving = np.flatnonzero(np.diff(starts))
+    loads = np.zeros((len(moving), pencil.size))
+    loads[np.repeat(np.arange(len(moving)), np.diff(starts)[moving]), columns] = values
+    return liquid_answer(potentials, loads.T @ potentials[moving], pencil.dense_restoring)
 
 
-def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:
-    """Columns ∫φᵢ q over each body's wetted surface."""
-    loads = [load for body in bodies for load in shape_loads(liquid, body)]
-    return loads_on_first(loads, sum(body.size for body in bodies), laplace)
+def _body_coupling(of_bodies: list[np.ndarray], laplace: PETSc.Mat) -> PETSc.Mat:
+    """Columns ∫φᵢ q over each body's wetted surface, from `shape_loads` with fluxes."""
+    loads = [load for rows in of_bodies for load in rows[:-1]]
+    return loads_on_first(loads, len(loads), laplace)

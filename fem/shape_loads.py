@@ -24,17 +24,18 @@ _SPARE_POINTS = 8
 _AT_CORNER = 1e-3
 
 
-def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
+def shape_loads(liquid: LiquidSpace, body: Body, *, flux: bool = False) -> np.ndarray:
     """Integrate every shape of a body against every basis function of ψ.
 
     Args:
         liquid: space of ψ on simplices.
         body: the body.
+        flux: whether ∫q follows in a last row, as by `surface_load`.
 
     Returns:
         ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
     """
-    loads = np.zeros((body.size, len(liquid.layer_of)))
+    loads = np.zeros((body.size + flux, len(liquid.layer_of)))
     pieces = [
         (own, facet_quadrature(liquid, own, body.wavenumber, int(corner)))
         for group in facet_groups(liquid, body.surface)
@@ -46,6 +47,8 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
             np.concatenate(part, axis=1) for part in zip(*((one.points, one.normals) for _, one in pieces), strict=True)
         )
         values = np.array([body.shapes(points, normals, number) for number in range(body.size)])
+        if flux:
+            values = np.vstack([values, np.ones_like(values[:1])])
         stops = np.cumsum([quadrature.points.shape[1] for _, quadrature in pieces])[:-1]
         for (group, quadrature), own in zip(pieces, np.split(values, stops, axis=1), strict=True):
             # Others vanish on the facet.

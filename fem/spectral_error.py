@@ -95,8 +95,12 @@ def _straight_energies(liquid: LiquidSpace) -> Energies:
     coefficients, starts = straight_coefficients(liquid)
 
     def energies(values: np.ndarray) -> list[np.ndarray]:
-        squares = np.square(coefficients(values)).sum(axis=2)
-        return [part.sum(axis=2) for part in np.split(squares, starts, axis=2)]
+        squares = np.square(coefficients(values))
+        polynomials = squares.shape[3]
+        # A product of matrices sums over axes and polynomials of a degree.
+        of_degree = np.repeat(np.eye(4), np.diff([0, *starts, polynomials]), axis=0)
+        sums = squares.reshape(-1, squares.shape[2] * polynomials) @ np.tile(of_degree, (squares.shape[2], 1))
+        return list(np.moveaxis(sums.reshape(*values.shape[:2], 4), 2, 0))
 
     return energies
 

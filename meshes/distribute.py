@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import basix.ufl
 import numpy as np
@@ -126,7 +127,7 @@ def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
             root=0,
         )
     dim = own.points.shape[1]
-    element = basix.ufl.element("Lagrange", own.cell, own.degree, shape=(dim,))
+    element = _geometry_element(own.cell, own.degree, dim)
     parts = bisected(own.points[own.cells[:, : dim + 1]].mean(axis=1), comm.size)
     partitioner = given_partition(parts) if comm.size > 1 else None
     mesh = create_mesh(comm, cells=own.cells, x=own.points, e=element, partitioner=partitioner)
@@ -144,3 +145,8 @@ def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
         cell_names=own.cell_names,
         deviation=own.deviation,
     )
+
+
+@lru_cache(maxsize=16)
+def _geometry_element(cell: str, degree: int, dim: int) -> basix.ufl._ElementBase:
+    return basix.ufl.element("Lagrange", cell, degree, shape=(dim,))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import isfinite
 
 import numpy as np
@@ -59,11 +60,18 @@ class Layout:
 
     def middle(self, number: int) -> NDArray[np.float64]:
         """Ends of a curve's elements from ring to ring, shape (n, 2)."""
-        points = self.outline.curves[number].at(self.elements[number])
-        for at_start, place in ((True, 0), (False, -1)):
-            if (number, at_start) in self.rings:
-                points[place] = self.rings[number, at_start].points[-1]
-        return points
+        return self._middles[number]
+
+    @cached_property
+    def _middles(self) -> list[NDArray[np.float64]]:
+        found = []
+        for number, (curve, parameters) in enumerate(zip(self.outline.curves, self.elements, strict=True)):
+            points = curve.at(parameters)
+            for at_start, place in ((True, 0), (False, -1)):
+                if (number, at_start) in self.rings:
+                    points[place] = self.rings[number, at_start].points[-1]
+            found.append(points)
+        return found
 
     def within_rings(self, number: int, at_start: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Parameters and points of a curve's nodes from a corner to before the outermost ring, in the curve's order."""
@@ -167,7 +175,9 @@ def lay_out(
     elements = {
         number: element_parameters(outline.curves[number], spans[number], wanted, largest_turn) for number in curved
     }
-    size = field([element_sources(outline.curves[number].at(elements[number])) for number in curved])
+    size = (
+        field([element_sources(outline.curves[number].at(elements[number])) for number in curved]) if curved else wanted
+    )
     straight = [number for number in range(len(outline.curves)) if number not in elements]
     ends = np.array([outline.curves[number].at(np.array(spans[number])) for number in straight]).reshape(-1, 2, 2)
     for number, parts in zip(straight, straight_elements(ends[:, 0], ends[:, 1], size), strict=True):

@@ -54,7 +54,9 @@ class Curve:
 
     def polyline(self) -> NDArray[np.float64]:
         """A few points on the curve, shape (n, 2): the two ends of a straight one."""
-        return self.at(np.linspace(0.0, 1.0, 2 if self.path is None else _COARSE, dtype=np.float64))
+        if self.path is None:
+            return np.array([self.start, self.end], dtype=np.float64)
+        return self.at(np.linspace(0.0, 1.0, _COARSE, dtype=np.float64))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -183,7 +185,8 @@ class Outline:
 
 def as_points(points: NDArray[np.float64]) -> list[Point]:
     """The rows of an array of shape (n, 2)."""
-    return [(float(x), float(y)) for x, y in points]
+    rows: Any = points.tolist()
+    return [(x, y) for x, y in rows]
 
 
 def enclosed_area(points: NDArray[np.float64]) -> float:

@@ -17,7 +17,7 @@ from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.liquid_pencil import surface_fluxes
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.fem.shape_loads import surface_load
+from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.modal.liquid.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.tank import TankScene
@@ -359,5 +359,6 @@ def test_two_processes_find_what_one_finds(top: LayerTop) -> None:
 def test_the_flux_of_an_elevation_is_that_of_the_surface_in_both_liquids() -> None:
     (pencil,) = pencils(layered(interface_beam(start=0.2), top="free"))
     liquid, names = pencil.liquid, ("body_1", "interface", "free_surface")
-    fluxes = surface_fluxes(liquid, liquid_matrices(liquid, pencil.surfaces), pencil.bodies, pencil.surfaces)
+    of_bodies = tuple(shape_loads(liquid, body, flux=True)[-1] for body in pencil.bodies)
+    fluxes = surface_fluxes(liquid, liquid_matrices(liquid, pencil.surfaces), pencil.surfaces, of_bodies)
     assert fluxes == pytest.approx(surface_load(liquid, names), abs=1e-15)

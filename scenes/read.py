@@ -174,7 +174,7 @@ class SceneSource:
         try:
             scene = model.model_validate(document, context=context)
         except ValidationError as error:
-            raise scene_error(error, model, file=label) from error
+            raise scene_error(error, model, file=label) from None
         return _with_mesh_beside(scene, self.file) if self.file is not None and isinstance(scene, TankScene) else scene
 
 

@@ -89,7 +89,7 @@ def _elastic(kind: Group, summary: Summary, what: str) -> Iterator[Row]:
         if elastic["omega"] is not None:
             # Of plates the tone is sought in its own order too, above the modes that were asked for.
             index = "" if elastic["index"] is None else f", mode {elastic['index']}"
-            name = f"ω of the first mode of {what} {elastic['body']}{index}"
+            name = f"ω of the first elastic tone of {what} {elastic['body']}{index}"
             yield _declared(kind["first_elastic_by_body"], elastic, "omega", name)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -297,6 +298,23 @@ def test_the_current_step_is_shown_if_asked(monkeypatch: pytest.MonkeyPatch) -> 
     assert not seen
     he.solve(scene, report=True)
     assert any(step.startswith("attempt 1") and step.endswith(str(scene.title)) for step in seen)
+
+
+def test_a_notebook_shows_the_current_step_without_ipywidgets(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[str] = []
+
+    class Shown:
+        def update(self, data: dict[str, str], *, raw: bool) -> None:
+            seen.append(data["text/plain"])
+
+    fake = ModuleType("IPython.display")
+    fake.display = lambda data, *, raw, display_id: Shown()  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "IPython", ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", fake)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    he.solve("swell", report=True)
+    assert seen[-1] == f"solved – {he.read('swell').title}"
+    assert len(seen) > 1
 
 
 def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None:

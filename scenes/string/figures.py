@@ -29,7 +29,7 @@ _EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
     (True, True): "both",
 }
 _FEW_POSITIONS = 20
-# Part of the largest |U| by which neighbouring positions beside a front differ where the string jumps there.
+# Part of the largest |U| of a shape by which neighbouring positions beside a front differ where the string jumps there.
 _JUMP = 0.1
 
 
@@ -120,7 +120,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
             label = f"{solution.times[place]:.4g} s"
             axes.plot(curve, solution.positions, ":", color=colour, linewidth=1.2)
             # At t = 0 the end has jumped, and both sides of the front are known.
-            jumps = np.abs(np.diff(curve)) > _JUMP * solution.largest
+            jumps = np.abs(np.diff(curve)) > _JUMP * np.abs(curve).max()
             cuts = 1 + np.flatnonzero(jumps & solution.beside_fronts[1:, place] & solution.beside_fronts[:-1, place])
             shape = np.insert(np.where(sure, curve, np.nan), cuts, np.nan)
             heights = np.insert(solution.positions, cuts, np.nan)

@@ -262,9 +262,18 @@ def test_scenes_are_made_of_keywords_alone() -> None:
         (lambda: he.sweep("swell", {}), 'vary = "": nothing is varied. For example {"body.1.start"'),
         (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}, jobs=0), "jobs = 0: it is too small. Allowed: 1 or"),
         (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}).plot("roll"), 'show = "roll": there is no such quan'),
-        (lambda: he.solve("swell").save("/proc/swell"), "it cannot be written (No such file or directory). Name another"),
-        (lambda: setattr(he.read("swell"), "title", "Mine"), 'title = "Mine": scenes cannot be changed. Make a changed'),
-        (lambda: setattr(he.read("swell").roll, "damping_ratio", 0.3), "damping_ratio = 0.3: scenes cannot be changed."),
+        (
+            lambda: he.solve("swell").save("/proc/swell"),
+            "it cannot be written (No such file or directory). Name another",
+        ),
+        (
+            lambda: setattr(he.read("swell"), "title", "Mine"),
+            'title = "Mine": scenes cannot be changed. Make a changed',
+        ),
+        (
+            lambda: setattr(he.read("swell").roll, "damping_ratio", 0.3),
+            "damping_ratio = 0.3: scenes cannot be changed.",
+        ),
         (lambda: he.solve("swell").save("swell", images="png"), "images = 'png': it is no option. Allowed: he.Pic"),
         (
             lambda: he.load("nowhere"),

@@ -53,7 +53,7 @@ from hydroelastic.scenes.thread.solve import solve_thread_scene
 SMALLEST = PictureOptions(scale=SCALE_LIMITS[0])
 RESULTS = Path(__file__).parent.parent / "results"
 UNIT = re.compile(
-    r",\s(m|s|rad|rad/s|1/s|N|kN|MN|kg/m|kg·m|kg/m/s|kg·m/s|N/m|N/m²|m/m|rad/m|degrees|degrees/s)(?=$|:|,| )"
+    r",\s(m|s|rad|rad/s|1/s|N|kN|MN|kg/m|kg·m|kg/\(m·s\)|kg·m/s|N/m|N/m²|m/m|rad/m|degrees|degrees/s)(?=$|:|,| )"
 )
 DIMENSIONLESS = (
     "displacement over the largest one",

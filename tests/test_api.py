@@ -259,7 +259,7 @@ def test_scenes_are_made_of_keywords_alone() -> None:
         ),
         (lambda: he.sweep("aquarium", ["body.1.start"]), "vary = ['body.1.start']: it is not a dictionary"),
         (lambda: he.sweep("swell", {"roll.damping_ratio": []}), 'vary = "roll.damping_ratio": there is no value. For'),
-        (lambda: he.sweep("swell", {}), 'vary = "": nothing is varied. For example {"body.1.start"'),
+        (lambda: he.sweep("swell", {}), 'vary: nothing is varied. For example {"body.1.start"'),
         (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}, jobs=0), "jobs = 0: it is too small. Allowed: 1 or"),
         (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}).plot("roll"), 'show = "roll": there is no such quan'),
         (

@@ -166,7 +166,7 @@ def _value(text: str, entry: str) -> Any:
 
 
 def _refused(value: str, wrong: str, remedy: str = _EXAMPLE) -> Problem:
-    return Problem(key="vary", value=shown_value(value), wrong=wrong, remedy=remedy, argument=True)
+    return Problem(key="vary", value=shown_value(value) if value else "", wrong=wrong, remedy=remedy, argument=True)
 
 
 def point_text(point: Mapping[str, Any]) -> str:

@@ -156,7 +156,7 @@ MODES = Group("modes", "natural modes by ascending frequency", (
     Quantity("multiplicity", "multiplicity", "1", value=lambda it: it.one.problem.multiplicity,
         note="2 of modes that may be turned about the axis, cos nθ and sin nθ"),
     Quantity("kind", "kind", value=_kind, note="what has most of the potential energy"),
-    Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", "bending",
+    Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", short="bending energy",
         value=lambda it: float(bending_fractions([it.one.mode], it.one.bodies)[0]), shown=".3f"),
     Quantity("residual", "relative residual of the eigenpair", "1", value=lambda it: it.one.mode.residual,
         printed=False),

@@ -146,27 +146,30 @@ def _exact(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
 # fmt: off
 # A table: as many arguments on a line as fit.
 MODES = Group("modes", "natural modes by ascending frequency", (
-    Quantity("omega", "natural frequency", "rad/s", "ω", error="relative_error", digits=12, variable="omega"),
-    Quantity("frequency_hz", "frequency of a mode", "Hz", "f", value=lambda it: it.omega / (2.0 * pi), shown=".6g"),
-    Quantity("relative_error", "estimated relative error", "1", value=lambda it: it.one.relative_error, shown=".1e"),
-    Quantity("order", "order", "1", "n", value=lambda it: it.one.problem.order,
+    MODE_OMEGA := Quantity("omega", "natural frequency", "rad/s", "ω", error="relative_error", digits=12,
+        variable="omega"),
+    FREQUENCY := Quantity("frequency_hz", "frequency of a mode", "Hz", "f", value=lambda it: it.omega / (2.0 * pi),
+        shown=".6g"),
+    RELATIVE_ERROR := Quantity("relative_error", "estimated relative error", "1",
+        value=lambda it: it.one.relative_error, shown=".1e"),
+    ORDER := Quantity("order", "order", "1", "n", value=lambda it: it.one.problem.order,
         note="of cos nθ about the axis, of cos nπy/B across a box; `null` where it is not separated"),
-    Quantity("symmetry", "symmetry", value=lambda it: it.one.problem.symmetry, printed=False,
+    SYMMETRY := Quantity("symmetry", "symmetry", value=lambda it: it.one.problem.symmetry, printed=False,
         note='`""` where none is used'),
-    Quantity("multiplicity", "multiplicity", "1", value=lambda it: it.one.problem.multiplicity,
+    MULTIPLICITY := Quantity("multiplicity", "multiplicity", "1", value=lambda it: it.one.problem.multiplicity,
         note="2 of modes that may be turned about the axis, cos nθ and sin nθ"),
-    Quantity("kind", "kind", value=_kind, note="what has most of the potential energy"),
+    KIND := Quantity("kind", "kind", value=_kind, note="what has most of the potential energy"),
     Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", "bending",
         value=lambda it: bending_fraction(it.one.mode, it.one.bodies), shown=".3f"),
     Quantity("residual", "relative residual of the eigenpair", "1", value=lambda it: it.one.mode.residual,
         printed=False),
 ), record=_modes, dimension="mode", prefix="mode")
 _TONE_PARTS = (
-    Quantity("body", "number of the plate", "1"),
+    TONE_BODY := Quantity("body", "number of the plate", "1"),
     Quantity("order", "order of its lowest elastic dry mode", "1", "n"),
-    Quantity("omega", "frequency of the first elastic tone", "rad/s", "ω", error="relative_error"),
+    TONE_OMEGA := Quantity("omega", "frequency of the first elastic tone", "rad/s", "ω", error="relative_error"),
     Quantity("relative_error", "estimated relative error of the tone", "1", shown=".1e"),
-    Quantity("index", "number of the tone among the modes", "1", note="`null` if it lies above them"),
+    TONE_INDEX := Quantity("index", "number of the tone among the modes", "1", note="`null` if it lies above them"),
     Quantity("index_in_order", "number of the tone among the modes of its order", "1"),
     Quantity("participation", "participation of the first dry mode", "1", "p", shown=".3f"),
     Quantity("runner_up", "next largest participation", "1", shown=".3f"),
@@ -182,7 +185,7 @@ _TONE_PARTS = (
         error="pressure_release_relative_error", note="`null` without open water"),
     Quantity("pressure_release_relative_error", "estimated relative error of that frequency", "1", shown=".1e",
         printed=False),
-    Quantity("note", "remark", printed=False),
+    TONE_NOTE := Quantity("note", "remark", printed=False),
 )
 FIRST_ELASTIC = Group("first_elastic", "first elastic tone of the first elastic plate", _TONE_PARTS, record=_first)
 TONES = Group("first_elastic_by_body", "first elastic tone of each elastic plate", _TONE_PARTS, record=_tones,
@@ -195,38 +198,40 @@ ESTIMATES = Group("estimates", "estimates of the first elastic tone of plates, a
     Quantity("difference", "relative difference from the tone or the mode", "1", "Δω/ω", shown="+.2e"),
     Quantity("difference_to_pressure_release", "relative difference from the pressure-release tone", "1", "Δω/ω₀",
         shown="+.2e"),
-    Quantity("note", "what it is", printed=False),
+    ESTIMATE_NOTE := Quantity("note", "what it is", printed=False),
 ), record=_estimates, dimension="estimate")
 EXACT = Group("exact", "frequencies of a closed form", (
-    Quantity("formula", "formula", printed=False),
+    FORMULA := Quantity("formula", "formula", printed=False),
     Quantity("order", "order", "1", "n"),
     Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
     Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
 ), record=_exact, dimension="exact_mode")
 SOLVER = Group("solver", "how the modes were found", (
-    Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
-    Quantity("attempts", "resolutions that were solved", "1"),
-    Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
+    MODEL := Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
+    ATTEMPTS := Quantity("attempts", "resolutions that were solved", "1"),
+    COUNT_CONFIRMED := Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
         value=lambda tank: tank.counted, note="by what, `count_method` tells"),
-    Quantity("count_method", "what confirms the number of modes",
+    COUNT_METHOD := Quantity("count_method", "what confirms the number of modes",
         note='`"inertia"` of the matrices of a coarser model; of large volumes residuals and a second start'),
-    Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
+    LARGEST_RESIDUAL := Quantity("largest_residual", "largest residual of a mode", "1",
+        value=lambda tank: tank.residual, shown=".1e"),
     Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
 ), record=lambda it: it.tank)
 SIZE = Group("size", "size of the problem", (
-    Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
-    Quantity("degree", "polynomial degree of ψ", "1"),
-    Quantity("layers", "layers at each edge", "1"),
-    Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
+    PROBLEMS := Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
+    DEGREE := Quantity("degree", "polynomial degree of ψ", "1"),
+    LAYERS := Quantity("layers", "layers at each edge", "1"),
+    POLES := Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
     Quantity("cells", "tetrahedra of a volume; 0 of other models", "1", value=lambda size: size.get("cells", 0)),
     Quantity("iterations",
         "iterations of each solution of Laplace's equation by multigrid, in the mean; 0 of a factorization", "1",
         value=lambda size: size.get("iterations", 0)),
-    Quantity("dofs", "unknowns of all problems", "1"),
+    DOFS := Quantity("dofs", "unknowns of all problems", "1"),
     Quantity("surface_unknowns", "unknowns of plates and water", "1"),
     Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
     PROCESSES,
-    Quantity("memory_of_a_process", "largest memory of one process", "byte", value=lambda _: largest_memory()),
+    MEMORY_OF_A_PROCESS := Quantity("memory_of_a_process", "largest memory of one process", "byte",
+        value=lambda _: largest_memory()),
 ), record=lambda it: it.tank.size)
 # Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (
@@ -242,6 +247,6 @@ _ARRAYS = (
 LEVEL_TANK = Group("", "a tank in three dimensions", (
     FLOATS,
     MODES,
-    Quantity("zero_modes", "motions without stiffness", "1", value=lambda it: it.tank.zero_modes),
+    ZERO_MODES := Quantity("zero_modes", "motions without stiffness", "1", value=lambda it: it.tank.zero_modes),
     FIRST_ELASTIC, TONES, ESTIMATES, EXACT, SOLVER, SIZE, *_ARRAYS,
 ))

@@ -12,7 +12,14 @@ from hydroelastic.output.columns import headings_of, rows_of
 from hydroelastic.output.digits import number
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.shown_rows import largest, shown_rows
-from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
+from hydroelastic.output.open_water.time_quantities import (
+    ELEVATION,
+    IMPULSE_RESPONSE,
+    INFINITE_FREQUENCY_ADDED_MASS,
+    MOTION,
+    MOTION_DISPLACEMENT,
+    MOTION_TIMES,
+)
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section
 from hydroelastic.output.whole_units import of_whole_solids
@@ -36,7 +43,7 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
         for column in open_columns(group, table)
         if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
     ]
-    added = group["infinite_frequency_added_mass"]
+    added = group[INFINITE_FREQUENCY_ADDED_MASS.key]
     units = [(unit or "").replace(" ", "·") for unit in (added.unit, added.of_roll[-1])]
     far = ", ".join(
         f"{dof.words} {number(float(value))} {units[dof.is_rotation]}"
@@ -59,12 +66,12 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
 
 
 def _motion(table: MotionTable) -> Section:
-    shown_keys = ("times", *(("elevation",) if len(table.wave_omega) else ()), "displacement")
+    printed = MOTION_TIMES, *((ELEVATION,) if len(table.wave_omega) else ()), MOTION_DISPLACEMENT
     shown, thinned = shown_rows(len(table.times), "times", "motion.csv")
     columns = [
         column
         for column in open_columns(MOTION, table)
-        if column.quantity.key in shown_keys and column.places.get("dof", 0) < _MOST_MOTIONS
+        if column.quantity in printed and column.places.get("dof", 0) < _MOST_MOTIONS
     ]
     about = "η is that of the incident waves at the middle of the first body. " if len(table.wave_omega) else ""
     sizes = "; ".join(

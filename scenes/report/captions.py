@@ -7,16 +7,30 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 from hydroelastic.output.digits import with_certain_digits
+from hydroelastic.output.level_tank import quantities as level_tank
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.tank import quantities as tank
+from hydroelastic.scenes.report.families import family_of, reading_of
 
 _Caption: TypeAlias = str | Callable[[Summary, int], str]
 
 
 def _mode(summary: Summary, number: int) -> str:
-    mode = summary["modes"][number - 1]
-    omega = with_certain_digits(mode["omega"], mode["relative_error"])
-    symmetry = f", {mode['symmetry']}" if mode["symmetry"] else ""
-    return f"Mode {number}: ω = {omega} rad/s, {mode['kind']}{symmetry}"
+    modes, *parts = _OF_TANKS if family_of(summary) == "tank" else _OF_LEVEL_TANKS
+    mode = reading_of(summary)[modes][number - 1]
+    omega, error, kind, symmetry = (mode[part] for part in parts)
+    words = ", ".join(filter(None, (kind, symmetry)))
+    return f"Mode {number}: ω = {with_certain_digits(omega, error)} rad/s, {words}"
+
+
+_OF_TANKS = tank.MODES, tank.MODE_OMEGA, tank.RELATIVE_ERROR, tank.KIND, tank.SYMMETRY
+_OF_LEVEL_TANKS = (
+    level_tank.MODES,
+    level_tank.MODE_OMEGA,
+    level_tank.RELATIVE_ERROR,
+    level_tank.KIND,
+    level_tank.SYMMETRY,
+)
 
 
 def _oscillation(_summary: Summary, number: int) -> str:
@@ -24,7 +38,7 @@ def _oscillation(_summary: Summary, number: int) -> str:
 
 
 def _growing(summary: Summary, number: int) -> str:
-    return f"Motion that grows, number {number}: {summary['growing'][number - 1]['kind']}"
+    return f"Motion that grows, number {number}: {reading_of(summary)[tank.GROWING][number - 1][tank.KIND]}"
 
 
 _CAPTIONS: tuple[tuple[str, _Caption], ...] = (

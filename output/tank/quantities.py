@@ -120,7 +120,8 @@ GROWING = Group("growing", "motions e^{σt} of unstable floats, the fastest firs
 ), record=lambda it: growing_motions(it.tank), dimension="growing_mode")
 ESTIMATES = Group("estimates",
     "estimates of the first elastic tone by [older theories](../theory_aquarium.md), by name", (
-    Quantity("omega", "angular frequency of the tone by an older theory", "rad/s", "ω", note="or `null`"),
+    ESTIMATE_OMEGA := Quantity("omega", "angular frequency of the tone by an older theory", "rad/s", "ω",
+        note="or `null`"),
     _DIFFERENCE,
     Quantity("added_mass_per_length", "added mass of the tone by an older theory", "kg/m^2", short="added mass"),
     _ADDED_MASS_DIFFERENCE,

@@ -11,6 +11,7 @@ import numpy as np
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.tank.quantities import ESTIMATE_OMEGA, ESTIMATES
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns
@@ -103,12 +104,11 @@ def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
 def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     """The first elastic tone by older theories, where they were asked for."""
     variables = {one.name: one for one in sweep.variables}
-    if "estimate_omega" not in variables:
+    estimate, omega = ESTIMATES.dimension, ESTIMATE_OMEGA.name_behind(ESTIMATES.name_behind(""))
+    if omega not in variables:
         return
     (axis,) = sweep.solved.grid.axes
-    for number, (name, values) in enumerate(
-        zip(variables["estimate"].values, variables["estimate_omega"].values.T, strict=True)
-    ):
+    for number, (name, values) in enumerate(zip(variables[estimate].values, variables[omega].values.T, strict=True)):
         style = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)]
         colour = COLOURS[number % len(COLOURS)]
         panel.plot(axis.values, values, style, color=colour, linewidth=0.8, label=str(name))

@@ -15,7 +15,15 @@ import numpy as np
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
 from hydroelastic.output.open_water.bodies import BODIES
-from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
+from hydroelastic.output.open_water.declarations import (
+    CREST,
+    DOFS,
+    NUMBERED,
+    OF_BODIES,
+    joined_array,
+    named_dofs,
+    own_array,
+)
 from hydroelastic.output.open_water.estimates import ESTIMATES
 from hydroelastic.output.open_water.hull_pressures import HULLS, Pressure, pressure_along
 from hydroelastic.output.open_water.irregular import SPECTRUM
@@ -185,18 +193,14 @@ _WAVES = (
 )
 
 
-def _capitalised(name: str, meaning: str = "motion") -> Quantity:
-    return own_array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
-
-
 _MATRIX = "omega influenced_dof radiating_dof", "omega radiating_dof influenced_dof"  # Capytaine puts the motion first.
 _FORCES = "omega wave wave_direction influenced_dof"
 RADIATION = Group("radiation", "radiated and incident waves, by analysis; matrices are force by motion", (
     OMEGA,
     *_WAVES,
     DOFS,
-    _capitalised("radiating_dof", "motion that radiates"),
-    _capitalised("influenced_dof", "motion that a force excites"),
+    named_dofs("radiating_dof", "motion that radiates"),
+    named_dofs("influenced_dof", "motion that a force excites"),
     joined_array("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
         value=lambda _: DIRECTIONS, printed=False),
     joined_array("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
@@ -257,7 +261,7 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         column="waves_from"),
     *_WAVES,
     DOFS,
-    _capitalised("radiating_dof", "motion that radiates"),
+    named_dofs("radiating_dof", "motion that radiates"),
     own_array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
     own_array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
     own_array("wave_direction", "direction in which incident waves travel", "wave_direction",
@@ -334,7 +338,7 @@ RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
     RESONANCE_OMEGA := joined_array("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
         variable="resonance_omega", note="with Im ω < 0"),
     DOFS,
-    _capitalised("dof"),
+    named_dofs("dof"),
     joined_array("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
         variable="resonance_amplitude", column=""),
     RESONANCE_ERROR := joined_array("relative_error", "estimated relative error of the frequency of a resonance",
@@ -348,7 +352,7 @@ DECAY = Group("decay", "motion after release, by analysis", (
     DECAY_TIMES := joined_array("times", "time after release", "time", unit="s", symbol="t", shown=".6g",
         variable="time", column="time"),
     DOFS,
-    _capitalised("dof"),
+    named_dofs("dof"),
     DISPLACEMENT := joined_array("displacement", "motion after release", "time dof", variable="decay_displacement",
         column="", **_MOTION),
     INITIAL := joined_array("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),

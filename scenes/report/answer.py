@@ -8,8 +8,9 @@ from typing import TypeAlias
 
 from hydroelastic.output.digits import with_certain_digits
 from hydroelastic.output.level_tank import quantities as level_tank
-from hydroelastic.output.open_water import irregular, time_quantities
+from hydroelastic.output.open_water import irregular
 from hydroelastic.output.open_water import quantities as water
+from hydroelastic.output.open_water import time_quantities as over_time
 from hydroelastic.output.open_water.declarations import DOFS
 from hydroelastic.output.provenance import SCENE, Summary
 from hydroelastic.output.quantities import Quantity
@@ -126,13 +127,13 @@ def _open_water(summary: Reading) -> Iterator[Row]:
             name = f"significant amplitude of {response[irregular.QUANTITY]} in irregular waves"
             yield _declared(response, irregular.SIGNIFICANT_AMPLITUDE, f"{name}, {response[irregular.UNIT]}")
     for table in summary[water.IMPULSE_RESPONSE]:
-        added, error = table[time_quantities.INFINITE_FREQUENCY_ADDED_MASS], table[time_quantities.IMPULSE_ERROR]
-        for place, dof in enumerate(map(Dof, table[time_quantities.DOFS][:_MOST_MODES])):
+        added, error = table[over_time.INFINITE_FREQUENCY_ADDED_MASS], table[over_time.IMPULSE_ERROR]
+        for place, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES])):
             unit = "kg·m" if dof.is_rotation else "kg/m"
             yield _row(f"added mass of {dof.words} at infinite frequency, {unit}", added[place][place], error)
     for table in summary[water.MOTION]:
-        largest, error = table[time_quantities.LARGEST], table[time_quantities.MOTION_ERROR]
-        for place, dof in enumerate(map(Dof, table[time_quantities.DOFS][:_MOST_MODES])):
+        largest, error = table[over_time.LARGEST], table[over_time.MOTION_ERROR]
+        for place, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES])):
             yield _row(f"largest {dof.words} in waves, {'rad' if dof.is_rotation else 'm'}", largest[place], error)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 from hydroelastic.output.digits import with_certain_digits
-from hydroelastic.output.level_tank import quantities as level_tank
+from hydroelastic.output.level_tank import quantities as level
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.tank import quantities as tank
 from hydroelastic.scenes.report.families import family_of, reading_of
@@ -16,21 +16,15 @@ _Caption: TypeAlias = str | Callable[[Summary, int], str]
 
 
 def _mode(summary: Summary, number: int) -> str:
-    modes, *parts = _OF_TANKS if family_of(summary) == "tank" else _OF_LEVEL_TANKS
+    modes, *parts = _TANK if family_of(summary) == "tank" else _LEVEL_TANK
     mode = reading_of(summary)[modes][number - 1]
     omega, error, kind, symmetry = (mode[part] for part in parts)
     words = ", ".join(filter(None, (kind, symmetry)))
     return f"Mode {number}: ω = {with_certain_digits(omega, error)} rad/s, {words}"
 
 
-_OF_TANKS = tank.MODES, tank.MODE_OMEGA, tank.RELATIVE_ERROR, tank.KIND, tank.SYMMETRY
-_OF_LEVEL_TANKS = (
-    level_tank.MODES,
-    level_tank.MODE_OMEGA,
-    level_tank.RELATIVE_ERROR,
-    level_tank.KIND,
-    level_tank.SYMMETRY,
-)
+_TANK = tank.MODES, tank.MODE_OMEGA, tank.RELATIVE_ERROR, tank.KIND, tank.SYMMETRY
+_LEVEL_TANK = level.MODES, level.MODE_OMEGA, level.RELATIVE_ERROR, level.KIND, level.SYMMETRY
 
 
 def _oscillation(_summary: Summary, number: int) -> str:
@@ -82,7 +76,7 @@ def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str]
     """
     parts = _NAME.fullmatch(stem)
     assert parts is not None
-    name, number, rest = parts["name"], int(parts["number"] or 0), parts["rest"] or ""
+    name, number, rest = parts.group("name"), int(parts.group("number") or 0), parts.group("rest") or ""
     place = _PLACES.get(name, len(_CAPTIONS))
     order = (place, number, rest)
     if place == len(_CAPTIONS):

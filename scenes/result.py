@@ -28,7 +28,7 @@ from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene, is_scene, read_scene, title_of_scene
-from hydroelastic.scenes.report.captions import place_and_caption
+from hydroelastic.scenes.report.captions import place_among_others
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.words import proposal
 
@@ -165,7 +165,7 @@ class Result:
             self.save(folder, images=images)
             found = None
             if MPI.COMM_WORLD.rank == 0:
-                found = read_dataset(folder / DATASET)[0], _pictures_in(folder, self.summary)
+                found = read_dataset(folder / DATASET)[0], _pictures_in(folder)
             return MPI.COMM_WORLD.bcast(found)
 
 
@@ -212,7 +212,7 @@ def load(folder: str | Path) -> Result:
         raise SceneError(Problem(key=f"result folder {folder}", wrong=wrong, remedy=remedy)) from error
     result = Result(scene=None, summary=summary, sections=sections, cost=cost)
     # In place of the cached properties that the solution would give.
-    vars(result).update(dataset=dataset, pictures=_pictures_in(folder, summary))
+    vars(result).update(dataset=dataset, pictures=_pictures_in(folder))
     return result
 
 
@@ -233,6 +233,6 @@ def _mode_rows(summary: Summary) -> Iterator[dict[str, Any]]:
             yield mode
 
 
-def _pictures_in(folder: Path, summary: Summary) -> dict[str, bytes]:
-    files = sorted(folder.glob("images/*.png"), key=lambda file: place_and_caption(file.stem, summary)[0])
+def _pictures_in(folder: Path) -> dict[str, bytes]:
+    files = sorted(folder.glob("images/*.png"), key=lambda file: place_among_others(file.stem))
     return {file.stem: file.read_bytes() for file in files}

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.frame import Frame
-from hydroelastic.fem.thread.modes import Roots, ThreadModes
-from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity, array
+
+if TYPE_CHECKING:
+    from hydroelastic.fem.thread.frame import Frame
+    from hydroelastic.fem.thread.modes import Roots, ThreadModes
+    from hydroelastic.fem.thread.motion_in_space import MotionInSpace
+    from hydroelastic.fem.thread.stability import Stability
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,6 @@ import numpy as np
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.tank.quantities import ESTIMATE_OMEGA, ESTIMATES
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns
@@ -103,6 +102,8 @@ def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
 
 def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     """The first elastic tone by older theories, where they were asked for."""
+    from hydroelastic.output.tank.quantities import ESTIMATE_OMEGA, ESTIMATES
+
     variables = {one.name: one for one in sweep.variables}
     estimate, omega = ESTIMATES.dimension, ESTIMATE_OMEGA.name_behind(ESTIMATES.name_behind(""))
     if omega not in variables:

@@ -40,8 +40,7 @@ def page(kind: Group) -> str:
                 "",
                 reference_table(kind),
                 "",
-                "In `summary.json` of all scenes there are also `scene`, the scene as read, with its defaults and "
-                'overrides, `status`, `"ok"` or `"unconverged"`, and',
+                "In `summary.json` of all scenes there are also",
                 "",
                 reference_table(OF_ALL_SCENES),
             )

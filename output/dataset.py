@@ -11,7 +11,7 @@ import numpy as np
 
 from hydroelastic.output.bare_package import bare_package
 from hydroelastic.output.json_values import json_ready
-from hydroelastic.output.provenance import OF_ALL_SCENES, Summary
+from hydroelastic.output.provenance import OF_ALL_SCENES, SCENE, STATUS, VERSIONS, Summary, read_summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.output.variables import PARTS, Variable, merged, separate_parts
@@ -44,11 +44,12 @@ def complete_variables(arrays: Iterable[Variable], summary: Summary, kind: Group
 
 def global_attributes(summary: Summary) -> dict[str, str]:
     """Return the attributes of a dataset as a whole."""
+    told = read_summary(summary)
     return {
         "Conventions": "CF-1.8",
-        "title": summary["scene"]["title"],
-        "source": f"hydroelastic {summary['versions']['hydroelastic']}",
-        "status": summary["status"],
+        "title": told[SCENE]["title"],
+        "source": f"hydroelastic {told[VERSIONS]['hydroelastic']}",
+        "status": told[STATUS],
     }
 
 

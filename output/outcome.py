@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hydroelastic.output.folder import results_message
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import REASONS, STATUS, Summary, read_summary
 from hydroelastic.output.sections import Section, printed_sections
 
 
@@ -39,12 +39,12 @@ class Outcome:
     @property
     def status(self) -> str:
         """The word "ok", or "unconverged"."""
-        return str(self.summary["status"])
+        return str(read_summary(self.summary)[STATUS])
 
     @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the requested accuracy is not reached; empty if it is."""
-        return tuple(self.summary["reasons"])
+        return tuple(read_summary(self.summary)[REASONS])
 
     @cached_property
     def tables(self) -> str:

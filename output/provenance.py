@@ -11,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.reading import Reading
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -27,10 +28,12 @@ OF_ALL_SCENES = Group(
     "",
     "in all summaries",
     (
-        Quantity("reasons", "reasons why the tolerance is not reached", dimensions=("reason",)),
-        Quantity("timing", "wall-clock time of a stage", "s", dimensions=("stage",)),
-        Quantity("memory_peak", "largest memory of all processes together", "byte"),
-        Quantity("versions", "version of a package", dimensions=("package",)),
+        SCENE := Quantity("scene", "the scene as read, with its defaults and overrides", variable=""),
+        STATUS := Quantity("status", '`"ok"` or `"unconverged"`', variable=""),
+        REASONS := Quantity("reasons", "reasons why the tolerance is not reached", dimensions=("reason",)),
+        TIMING := Quantity("timing", "wall-clock time of a stage", "s", dimensions=("stage",)),
+        MEMORY_PEAK := Quantity("memory_peak", "largest memory of all processes together", "byte"),
+        VERSIONS := Quantity("versions", "version of a package", dimensions=("package",)),
     ),
 )
 """Quantities that `summarize` adds."""
@@ -79,15 +82,21 @@ def memory_of_process() -> int:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
-def spent(summary: Summary, memory: str = "") -> str:
+def read_summary(summary: Summary, kind: Group = OF_ALL_SCENES) -> Reading:
+    """Return a summary as it is read, by what is declared of its kind of scene and of all."""
+    parts = OF_ALL_SCENES.parts if kind is OF_ALL_SCENES else (*OF_ALL_SCENES.parts, *kind.parts)
+    return Reading(Group("", kind.meaning, parts), summary)
+
+
+def spent(summary: Reading, memory: str = "") -> str:
     """Return seconds by stage and memory, the end of the line on the cost of a solution.
 
     Args:
         summary: the summary of a result.
         memory: what is added about memory.
     """
-    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary["timing"].items() if value >= 0.005)
-    return f"; seconds: {seconds or 'less than 0.01'}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB{memory}."
+    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary[TIMING].items() if value >= 0.005)
+    return f"; seconds: {seconds or 'less than 0.01'}; peak memory {summary[MEMORY_PEAK] / 2**20:.0f} MiB{memory}."
 
 
 class Solved(Protocol):
@@ -112,11 +121,11 @@ def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_se
         import_seconds: time spent importing libraries.
     """
     return {
-        "scene": scene,
-        "status": "unconverged" if solution.reasons else "ok",
-        "reasons": list(solution.reasons),
+        SCENE.key: scene,
+        STATUS.key: "unconverged" if solution.reasons else "ok",
+        REASONS.key: list(solution.reasons),
         **kind.evaluated(solution),
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(_all_processes()),
-        "versions": versions(),
+        TIMING.key: {"import": import_seconds, **solution.seconds},
+        MEMORY_PEAK.key: memory_of_processes(_all_processes()),
+        VERSIONS.key: versions(),
     }

@@ -177,24 +177,19 @@ class Group:
         raise KeyError(key)
 
     @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """The quantities within, without groups."""
+        return tuple(part for part in self.parts if isinstance(part, Quantity))
+
+    @property
     def arrays(self) -> tuple[Quantity, ...]:
         """The quantities that are in ``dataset.nc`` alone, of each record apart."""
-        return tuple(
-            part for part in self.parts if isinstance(part, Quantity) and not part.in_summary and part.joined is None
-        )
+        return tuple(part for part in self.quantities if not part.in_summary and part.joined is None)
 
     @property
     def groups(self) -> tuple[Group, ...]:
         """The groups within."""
         return tuple(part for part in self.parts if isinstance(part, Group))
-
-    def cells(self, values: Mapping[str, Any]) -> dict[str, str]:
-        """Return the values of all quantities that are single numbers or texts as they are printed, by key."""
-        return {
-            part.key: part.cell(values, self)
-            for part in self.parts
-            if isinstance(part, Quantity) and part.in_summary and not part.dimensions
-        }
 
     def with_nulls(self, values: Values) -> Values:
         """Return values by key; those that are missing are ``None``."""

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 from hydroelastic.output.markdown import markdown_table
 from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Row
 
 
-def listed(group: Group, values: Mapping[str, Any]) -> list[Row]:
-    """Return one row for each printed quantity of a group: meaning, symbol and unit; value.
-
-    Args:
-        group: which declares them.
-        values: by key; those that it lacks have no row.
-    """
-    return [(quantity.label, quantity.cell(values, group)) for quantity in _printed(group) if quantity.key in values]
+def listed(reading: Reading) -> list[Row]:
+    """Return one row for each printed quantity that a reading has: meaning, symbol and unit; value."""
+    return [(quantity.label, reading.cell(quantity)) for quantity in _printed(reading.group) if quantity in reading]
 
 
 def headings(group: Group) -> Row:
@@ -26,33 +21,30 @@ def headings(group: Group) -> Row:
     return tuple(quantity.heading for quantity in _printed(group))
 
 
-def without_zeros(group: Group, key: str, entries: Sequence[Mapping[str, Any]]) -> Group:
-    """Return the group, without the quantity of a key where that is zero in all entries: it says nothing there."""
-    said = any(values[key] for values in entries)
-    return group if said else replace(group, parts=tuple(part for part in group.parts if part.key != key))
+def without_zeros(quantity: Quantity, entries: Sequence[Reading], group: Group) -> tuple[Group, list[Reading]]:
+    """Return the group and the entries, without a quantity that is zero in all of these: it says nothing there."""
+    if any(one[quantity] for one in entries):
+        return group, list(entries)
+    told = replace(group, parts=tuple(part for part in group.parts if part is not quantity))
+    return told, [replace(one, group=told) for one in entries]
 
 
-def columns(group: Group, entries: Sequence[Mapping[str, Any]]) -> list[Row]:
-    """Return one row for each entry of a list, with one cell for each printed quantity.
-
-    Args:
-        group: which declares the quantities.
-        entries: their values by key.
-    """
-    return [tuple(quantity.cell(values, group) for quantity in _printed(group)) for values in entries]
+def columns(entries: Sequence[Reading]) -> list[Row]:
+    """Return one row for each entry of a list, with one cell for each printed quantity."""
+    return [tuple(map(entry.cell, _printed(entry.group))) for entry in entries]
 
 
-def labelled_columns(group: Group, entries: Sequence[Mapping[str, Any]] | Mapping[str, Mapping[str, Any]]) -> list[Row]:
+def labelled_columns(entries: Sequence[Reading] | Mapping[str, Reading]) -> list[Row]:
     """Return the rows of `columns`, in front of each the number of the entry, or its label in a dictionary."""
     if isinstance(entries, Mapping):
         labels, entries = list(entries), list(entries.values())
     else:
         labels = [str(number) for number in range(1, len(entries) + 1)]
-    return [(label, *row) for label, row in zip(labels, columns(group, entries), strict=True)]
+    return [(label, *row) for label, row in zip(labels, columns(entries), strict=True)]
 
 
 def _printed(group: Group) -> Iterator[Quantity]:
-    return (part for part in group.parts if isinstance(part, Quantity) and part.in_summary and part.printed)
+    return (quantity for quantity in group.quantities if quantity.in_summary and quantity.printed)
 
 
 def reference_table(kind: Group) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from hydroelastic.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import REASONS, SCENE, STATUS, Summary, read_summary
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -120,15 +120,16 @@ def read_markdown_sections(text: str) -> tuple[tuple[Section, ...], str]:
 
 def title_of(summary: Summary) -> str:
     """Return the title of a scene."""
-    return summary["scene"]["title"] or "Untitled scene"
+    return read_summary(summary)[SCENE]["title"] or "Untitled scene"
 
 
 def status_lines(summary: Summary) -> list[str]:
     """A warning if the requested accuracy is not reached, then the reasons."""
-    if summary["status"] == "ok":
+    told = read_summary(summary)
+    if told[STATUS] == "ok":
         return []
-    tolerance = summary["scene"]["accuracy"]["tolerance"]
-    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *summary["reasons"]]
+    tolerance = told[SCENE]["accuracy"]["tolerance"]
+    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *told[REASONS]]
 
 
 def rich_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Table:

@@ -14,7 +14,7 @@ from hydroelastic.output.dataset import DATASET, complete_variables, global_attr
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.pictures.quick_import import import_matplotlib
 from hydroelastic.output.pictures.rendering import NoRendererError
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import TIMING, Summary, read_summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.variables import Variable
 
@@ -90,7 +90,7 @@ def write_results(
                         except NoRendererError as error:
                             shutil.rmtree(folder / "images")
                             warnings.append(f"no images: {error}")
-                summary["timing"].update(watch.seconds)
+                read_summary(summary)[TIMING].update(watch.seconds)
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.

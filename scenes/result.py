@@ -16,16 +16,19 @@ import numpy as np
 
 from hydroelastic.output.dataset import DATASET, read_dataset
 from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.open_water import quantities as water
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import SCENE, STATUS, Summary, read_summary
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section, printed_sections, read_markdown_sections, title_of
+from hydroelastic.output.thread import quantities as thread
 from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene, is_scene, read_scene, title_of_scene
-from hydroelastic.scenes.report.captions import place_and_caption
+from hydroelastic.scenes.report.captions import place_among_others
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.words import proposal
 
@@ -61,7 +64,7 @@ class Result:
 
     def __repr__(self) -> str:
         """Return title and status in one line."""
-        return f"<Result of {title_of(self.summary)!r}: {self.summary['status']}>"
+        return f"<Result of {title_of(self.summary)!r}: {read_summary(self.summary)[STATUS]}>"
 
     def _repr_html_(self) -> str:
         """Return the main numbers and the tables, for notebooks."""
@@ -162,7 +165,7 @@ class Result:
             self.save(folder, images=images)
             found = None
             if MPI.COMM_WORLD.rank == 0:
-                found = read_dataset(folder / DATASET)[0], _pictures_in(folder, self.summary)
+                found = read_dataset(folder / DATASET)[0], _pictures_in(folder)
             return MPI.COMM_WORLD.bcast(found)
 
 
@@ -209,7 +212,7 @@ def load(folder: str | Path) -> Result:
         raise SceneError(Problem(key=f"result folder {folder}", wrong=wrong, remedy=remedy)) from error
     result = Result(scene=None, summary=summary, sections=sections, cost=cost)
     # In place of the cached properties that the solution would give.
-    vars(result).update(dataset=dataset, pictures=_pictures_in(folder, summary))
+    vars(result).update(dataset=dataset, pictures=_pictures_in(folder))
     return result
 
 
@@ -217,17 +220,19 @@ _NUMBERS: dict[Any, float] = {None: nan, "inf": inf, "-inf": -inf}
 
 
 def _mode_rows(summary: Summary) -> Iterator[dict[str, Any]]:
-    for number, analysis in enumerate(summary.get("resonance", ()), 1):
-        for (real, imaginary), error in zip(analysis["omega"], analysis["relative_error"], strict=True):
+    for number, analysis in enumerate(summary.get(water.RESONANCE.key, ()), 1):
+        found = Reading(water.RESONANCE, analysis)
+        for (real, imaginary), error in zip(found[water.RESONANCE_OMEGA], found[water.RESONANCE_ERROR], strict=True):
             yield {"analysis": number, "omega": complex(real, imaginary), "relative_error": error}
-    for number, mode in enumerate(summary.get("modes", ()), 1):
-        if summary["scene"]["kind"] == "thread":
-            for kind in ("oscillating", "aperiodic"):
-                yield from ({"analysis": number, "kind": kind, **motion} for motion in mode[kind])
+    for number, mode in enumerate(summary.get(thread.MODES.key, ()), 1):
+        if read_summary(summary)[SCENE]["kind"] == "thread":
+            of_analysis = Reading(thread.MODES, mode)
+            for kind in (thread.OSCILLATING, thread.APERIODIC):
+                yield from ({"analysis": number, "kind": kind.key, **one.values} for one in of_analysis[kind])
         else:
             yield mode
 
 
-def _pictures_in(folder: Path, summary: Summary) -> dict[str, bytes]:
-    files = sorted(folder.glob("images/*.png"), key=lambda file: place_and_caption(file.stem, summary)[0])
+def _pictures_in(folder: Path) -> dict[str, bytes]:
+    files = sorted(folder.glob("images/*.png"), key=lambda file: place_among_others(file.stem))
     return {file.stem: file.read_bytes() for file in files}

@@ -14,8 +14,9 @@ from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.output.provenance import Solved, Summary, summarize
+from hydroelastic.output.provenance import TIMING, Solved, Summary, read_summary, summarize
 from hydroelastic.output.quantities import Group
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section, markdown_sections
 from hydroelastic.output.variables import Variable, array_variables
 from hydroelastic.output.writer import write_results
@@ -25,7 +26,7 @@ _Scene = TypeVar("_Scene", bound=BaseModel, contravariant=True)
 _Solution = TypeVar("_Solution", bound=Solved, contravariant=True)
 
 
-def _as_solved(solution: Any, _summary: Summary) -> Any:
+def _as_solved(solution: Any, _summary: Reading) -> Any:
     return solution
 
 
@@ -61,13 +62,13 @@ class StagedRun(Generic[_Scene, _Solution]):
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
     kind: Group
-    sections: Callable[[_Solution, Summary], Iterable[Section]]
-    cost: Callable[[Summary], str]
+    sections: Callable[[_Solution, Reading], Iterable[Section]]
+    cost: Callable[[Reading], str]
     write: Callable[[Any, Path], None]
     draw: Callable[[Any, Path, PictureOptions, Report], None]
     used_options: frozenset[PictureOption]
     animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
-    sample: Callable[[_Solution, Summary], Any] = _as_solved
+    sample: Callable[[_Solution, Reading], Any] = _as_solved
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
     arrays: Callable[[Any], Iterable[Variable]] | None = None
     attributes: Mapping[str, str] = field(default_factory=dict)
@@ -122,12 +123,17 @@ class StagedRun(Generic[_Scene, _Solution]):
             import_seconds: as for a call.
         """
         summary = self.summarized(scene, solution, import_seconds)
-        sections = tuple(self.sections(solution, summary)) if tables else ()
-        return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))
+        told = self.read(summary)
+        sections = tuple(self.sections(solution, told)) if tables else ()
+        return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(told))
 
     def summarized(self, scene: _Scene, solution: _Solution, import_seconds: float = 0.0) -> Summary:
         """Return the content of ``summary.json`` (collective)."""
         return summarize(self.kind, solution, scene.model_dump(mode="json"), import_seconds)
+
+    def read(self, summary: Summary) -> Reading:
+        """Return a summary as sections read it."""
+        return read_summary(summary, self.kind)
 
     def written(
         self,
@@ -145,14 +151,15 @@ class StagedRun(Generic[_Scene, _Solution]):
             The outcome with the folder and the warnings; its summary has the seconds of writing too.
         """
         solution = outcome.solution
-        summary = {**outcome.summary, "timing": {**outcome.summary["timing"]}}
+        timing = {**self.read(outcome.summary)[TIMING]}
+        summary = {**outcome.summary, TIMING.key: timing}
         # Read before anything is written there.
         replaces = read_manifest(out) is not None
         watch = Stopwatch()
         report("fields")
         with watch.stage("sample"):
-            sampled = self.sample(solution, summary)
-        summary["timing"].update(watch.seconds)
+            sampled = self.sample(solution, self.read(summary))
+        timing.update(watch.seconds)
         missing = self.sampling_warnings(sampled)
         if images is not None:
             missing += images.without_effect(self.used_options)
@@ -163,7 +170,7 @@ class StagedRun(Generic[_Scene, _Solution]):
             return replace(
                 outcome,
                 summary=summary,
-                cost=self.cost(summary),
+                cost=self.cost(self.read(summary)),
                 folder=out,
                 warnings=(*warnings, *missing),
                 replaces=replaces,
@@ -179,7 +186,7 @@ class StagedRun(Generic[_Scene, _Solution]):
                 kind=self.kind,
                 attributes=self.attributes,
                 pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
-                text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
+                text=lambda content: markdown_sections(content, outcome.sections, self.cost(self.read(content))),
                 page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
                 report=report,
                 parts=self.write_parts(sampled),

@@ -15,6 +15,8 @@ from hydroelastic.output.pictures.gif import FRAMES, write_gif
 from hydroelastic.output.pictures.modes import animate_mode, animate_motion
 from hydroelastic.output.pictures.tank import drawn_vectors
 from hydroelastic.output.pictures.view import view_of
+from hydroelastic.output.reading import Reading
+from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.scenes.tank.shapes import animated_modes
 
 WIDTH = 800
@@ -130,6 +132,6 @@ def test_notable_modes_are_animated() -> None:
     bending = [0.0, 0.1, 0.0, 0.4, 0.0, 0.0]
     modes = [{"kind": kind, "elastic_energy_fraction": share} for kind, share in zip(kinds, bending, strict=True)]
     # The lowest two, the lowest of each kind, the one with the largest share of bending.
-    assert animated_modes({"modes": modes}) == [0, 1, 2, 3, 5]
-    assert animated_modes({"modes": modes[:1]}) == [0]
-    assert animated_modes({"modes": []}) == []
+    assert animated_modes(Reading(TANK, {"modes": modes})) == [0, 1, 2, 3, 5]
+    assert animated_modes(Reading(TANK, {"modes": modes[:1]})) == [0]
+    assert animated_modes(Reading(TANK, {"modes": []})) == []

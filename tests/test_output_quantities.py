@@ -10,6 +10,7 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.dataset import write_dataset
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.quantity_tables import columns, headings, listed, reference_table
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.output.variables import Variable, array_variables, grid_columns, merged
 
@@ -73,11 +74,11 @@ def test_each_record_of_a_list_has_arrays_of_its_own() -> None:
 
 
 def test_cells_have_the_digits_that_are_certain() -> None:
-    values = KIND.evaluated(SOLUTION)["modes"]
+    values = Reading(KIND, KIND.evaluated(SOLUTION))[MODES]
     assert headings(MODES) == ("ω, rad/s", "force, N·s²/m³", "relative error")
     # The first force is smaller than its error.
-    assert columns(MODES, values) == [("1.2346", "0", "1.0e-05"), ("2.0000", "12.346", "1.0e-05")]
-    assert listed(MODES, {"omega": 2.0, "relative_error": 1e-5})[0] == ("angular frequency ω, rad/s", "2.0000")
+    assert columns(values) == [("1.2346", "0", "1.0e-05"), ("2.0000", "12.346", "1.0e-05")]
+    assert listed(Reading(MODES, {"omega": 2.0, "relative_error": 1e-5}))[0] == ("angular frequency ω, rad/s", "2.0000")
     assert "| · `omega` | ω | rad/s | angular frequency | `omega` (mode) |" in reference_table(KIND)
 
 

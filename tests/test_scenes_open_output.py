@@ -188,11 +188,13 @@ def scene_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def printed_open(solution: OpenSolution, summary: Any) -> str:
-    return printed_sections(summary, open_sections(solution, summary), open_cost(summary))
+    return printed_sections(summary, open_sections(solution, run_open.read(summary)), open_cost(run_open.read(summary)))
 
 
 def markdown_open(solution: OpenSolution, summary: Any) -> str:
-    return markdown_sections(summary, open_sections(solution, summary), open_cost(summary))
+    return markdown_sections(
+        summary, open_sections(solution, run_open.read(summary)), open_cost(run_open.read(summary))
+    )
 
 
 def use_solver(monkeypatch: pytest.MonkeyPatch, *, reasons: tuple[str, ...] = ()) -> None:

@@ -69,7 +69,7 @@ def test_tables_summary_and_dataset_have_it(coarse: OpenSolution) -> None:
     summary = run_open.summarized(coarse.scene, coarse)
     (told,) = summary["response"][0]["missed_peaks"]
     assert told["omega"] == peak_of(coarse).omega
-    lines = [line for section in open_sections(coarse, summary) for line in section.lines]
+    lines = [line for section in open_sections(coarse, run_open.read(summary)) for line in section.lines]
     (line,) = (line for line in lines if "NOT SHOWN" in line)
     assert "between 0.7 and 0.8 rad/s roll changes" in line
     variables = summary_variables(json_ready({"response": summary["response"]}), OPEN_WATER)

@@ -44,7 +44,7 @@ def test_numbers_are_as_long_as_they_are_certain(value: float, error: float, tex
 
 
 def tables(solution: OpenSolution) -> list[Section]:
-    return list(open_sections(solution, run_open.summarized(solution.scene, solution)))
+    return list(open_sections(solution, run_open.read(run_open.summarized(solution.scene, solution))))
 
 
 def decaying(count: int) -> Section:

@@ -52,7 +52,7 @@ def test_a_broken_bound_is_said_loudly(tanks: Any) -> None:
     )
     summary = run_tank.summarized(scene, EstimatedTank(scene=scene, tank=solution, beam={"low": low}))
     assert summary["estimates"]["low"]["bound_holds"] is False
-    assert "VIOLATED" in markdown_sections(summary, tank_sections(summary), "")
+    assert "VIOLATED" in markdown_sections(summary, tank_sections(run_tank.read(summary)), "")
 
 
 def test_the_gap_to_the_field_solution_is_the_references(tanks: Any) -> None:

@@ -59,7 +59,7 @@ def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None
     assert arrays["tension_range"][:, highest].max() == told["largest_tension"]
     ends = arrays["end_tension"]
     assert np.column_stack([ends.min(axis=0), ends.max(axis=0)]).tolist() == told["end_tensions_range"]
-    rows = {row[0] for section in thread_sections(summary) for row in section.rows}
+    rows = {row[0] for section in thread_sections(run_thread.read(summary)) for row in section.rows}
     assert {"largest tension over all steps, N", "estimated error of the extremes of tension, N"} <= rows
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time
-from typing import Any
 
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.sweep.cases import SWEEPS
 from hydroelastic.benchmarks.tank import hydroelastic as hydroelastic_tank
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
+from hydroelastic.output.provenance import read_summary
+from hydroelastic.output.tank.quantities import DOFS, MODE_OMEGA, MODES, SIZE, TANK
 from hydroelastic.scenes.sweep.axes import grid_from_values
 from hydroelastic.scenes.sweep.families import LAST
 from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep
@@ -31,10 +32,10 @@ def solve(case: Case) -> Answer:
     )
     # That of other processes is not known before they end.
     stages = {"processor": time.process_time() - start} if jobs == 1 else {}
-    summaries: list[dict[str, Any]] = [point.summary or {} for point in solved.points]
+    told = [read_summary(point.summary or {}, TANK) for point in solved.points]
     return Answer(
-        values=tuple(mode["omega"] for summary in summaries for mode in summary["modes"]),
-        unknowns=max(summary["size"]["dofs"] for summary in summaries),
+        values=tuple(mode[MODE_OMEGA] for summary in told for mode in summary[MODES]),
+        unknowns=max(summary[SIZE][DOFS] for summary in told),
         stages=stages,
         note="; ".join(solved.complaints),
     )

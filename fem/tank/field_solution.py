@@ -304,11 +304,11 @@ def _extension(
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
     amplitudes = np.array(columns).reshape(len(columns), offsets[-1]).T
-    whole, own = amplitudes.shape
-    energies = np.zeros((whole + surfaces, own + surfaces))
+    of_whole, of_part = amplitudes.shape
+    energies = np.zeros((of_whole + surfaces, of_part + surfaces))
     # Energies are like the squares of amplitudes.
-    energies[:whole, :own] = amplitudes**2 / (amplitudes**2).sum(axis=0)
-    energies[whole:, own:] = np.eye(surfaces)
+    energies[:of_whole, :of_part] = amplitudes**2 / (amplitudes**2).sum(axis=0)
+    energies[of_whole:, of_part:] = np.eye(surfaces)
     for matrix in (amplitudes, energies):
         matrix.flags.writeable = False
     return Extension(amplitudes, energies)

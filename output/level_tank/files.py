@@ -10,7 +10,6 @@ from mpi4py import MPI
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.level_tank.quantities import MODES
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
-from hydroelastic.output.quantities import Quantity
 from hydroelastic.output.vtu import write_index, write_vtu
 from hydroelastic.physics.volume_tank import VolumeTank
 
@@ -55,9 +54,8 @@ def write_parts(tank: SampledTank, folder: Path) -> None:
 
 def write_modes(tank: SampledTank, folder: Path) -> None:
     """Write ``modes.csv`` into an existing folder; SI units."""
-    keys = [part.key for part in MODES.parts if isinstance(part, Quantity)]
-    modes = tank.summary["modes"]
-    columns = {key: ["" if mode[key] is None else mode[key] for mode in modes] for key in keys}
+    modes = tank.summary[MODES]
+    columns = {part.key: ["" if mode[part] is None else mode[part] for mode in modes] for part in MODES.quantities}
     write_csv(folder / "modes.csv", {"mode": np.arange(1, len(modes) + 1), **columns})
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.solid_floats import SolidFloat
@@ -102,8 +103,8 @@ _PLACE, _TURNS = ("x_y_and_z",), ("roll_and_pitch",)
 
 # fmt: off
 FLOATS = Group("bodies", "floats with draught at rest, in a volume", (
-    Quantity("number", "number of the body", "1", short="body"),
-    Quantity("shape", "shape of the float"),
+    NUMBER := Quantity("number", "number of the body", "1", short="body"),
+    SHAPE := Quantity("shape", "shape of the float"),
     Quantity("mass", "mass", "kg", shown=".6g"),
     Quantity("draught", "draught", "m", shown=".6g"),
     Quantity("displaced_volume", "displaced volume", "m^3", shown=".6g"),
@@ -123,11 +124,10 @@ FLOATS = Group("bodies", "floats with draught at rest, in a volume", (
 
 def floats_section(floats: Sequence[FloatAtRest]) -> Iterator[Section]:
     """Yield the table of the floats at rest, if there are any."""
-    found = [FLOATS.evaluated(one) for one in floats]
+    found = [Reading(FLOATS, FLOATS.evaluated(one)) for one in floats]
     if found:
-        parts = [part for part in FLOATS.parts if isinstance(part, Quantity)][2:]
         yield Section(
             title="Bodies at rest",
-            headings=("quantity", *(f"{one['shape']} {one['number']}" for one in found)),
-            rows=[(part.label, *(part.cell(values, FLOATS) for values in found)) for part in parts],
+            headings=("quantity", *(f"{one[SHAPE]} {one[NUMBER]}" for one in found)),
+            rows=[(part.label, *(one.cell(part) for one in found)) for part in FLOATS.quantities[2:]],
         )

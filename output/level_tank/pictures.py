@@ -11,6 +11,7 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.level_tank.quantities import FREQUENCY, KIND, MODE_OMEGA, MODES, MULTIPLICITY, ORDER
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
 from hydroelastic.output.pictures.colours import INK, mode_colours
 from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
@@ -27,7 +28,7 @@ from hydroelastic.output.pictures.page import (
     write_title,
 )
 from hydroelastic.output.pictures.rendering import require_renderer
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.reading import Reading
 
 if TYPE_CHECKING:
     import pyvista
@@ -51,7 +52,7 @@ def draw_level_tank(tank: SampledTank, folder: Path, options: PictureOptions, re
         NoRendererError: no library of this computer can render.
     """
     drawn = [place for place, name in enumerate(tank.sample.names) if not name.endswith("_sin")]
-    for place_of, mode in zip(drawn, tank.summary["modes"], strict=True):
+    for place_of, mode in zip(drawn, tank.summary[MODES], strict=True):
         number = tank.sample.numbers[place_of] + 1
         report(f"picture {number} of {len(drawn)}")
         title = _title(number, mode)
@@ -73,10 +74,10 @@ def draw_level_tank(tank: SampledTank, folder: Path, options: PictureOptions, re
             write_gif(pages, folder / f"mode_{number:03d}.gif", seconds=SECONDS, kept=mode_colours())
 
 
-def _title(number: int, mode: Summary) -> str:
-    order = "" if mode["order"] is None else f", n = {mode['order']}"
-    pair = ", one of a pair" if mode["multiplicity"] == 2 else ""
-    return f"Mode {number}: ω = {mode['omega']:.6g} rad/s, {mode['frequency_hz']:.4g} Hz{order}, {mode['kind']}{pair}"
+def _title(number: int, mode: Reading) -> str:
+    order = "" if mode[ORDER] is None else f", n = {mode[ORDER]}"
+    pair = ", one of a pair" if mode[MULTIPLICITY] == 2 else ""
+    return f"Mode {number}: ω = {mode[MODE_OMEGA]:.6g} rad/s, {mode[FREQUENCY]:.4g} Hz{order}, {mode[KIND]}{pair}"
 
 
 def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, factor: float = 1.0) -> NDArray[np.uint8]:

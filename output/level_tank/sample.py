@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.patches import Patch
 from hydroelastic.fem.level_bed.solution import LevelSolution, PlanProblem
+from hydroelastic.output.reading import Reading
 from hydroelastic.physics.dofs import body_name
 
 # Horizontal layers of the volume.
@@ -52,12 +53,12 @@ class SampledTank:
     Attributes:
         solved: the solution with its scene.
         sample: the shapes.
-        summary: content of ``summary.json``.
+        summary: what is written of it.
     """
 
     solved: Any
     sample: SampledModes
-    summary: dict[str, Any]
+    summary: Reading
 
     @property
     def tank(self) -> LevelSolution:

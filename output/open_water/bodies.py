@@ -8,6 +8,7 @@ from math import pi
 from typing import Any
 
 from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
 from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.round_plates import RoundPlate
@@ -117,8 +118,8 @@ def _point(key: str, meaning: str) -> Quantity:
 
 # fmt: off
 BODIES = Group("bodies", "bodies at rest", (
-    Quantity("number", "number of the body", "1", short="body"),
-    Quantity("kind", '`"float"`, `"beam"` or `"plate"`', short="kind"),
+    NUMBER := Quantity("number", "number of the body", "1", short="body"),
+    KIND := Quantity("kind", '`"float"`, `"beam"` or `"plate"`', short="kind"),
     Quantity("mass", "mass", "kg/m", shown=".6g", short="mass"),
     Quantity("draught", "draught", "m", shown=".6g", short="draught",
         note="of a beam or plate that of its mean weight, which is not modelled"),
@@ -144,16 +145,15 @@ def bodies_section(solution: Any) -> Section:
 
 def bodies_at_rest_section(tank: Tank) -> Section:
     """Return the table of the bodies of a tank or of open water at rest, in SI units."""
-    found = [BODIES.evaluated(one) for one in bodies_at_rest(tank)]
     whole = tank.geometry.is_whole
     group = of_whole_solids(BODIES) if whole else BODIES
-    heads = [part for part in group.parts if isinstance(part, Quantity)][1:]
+    found = [Reading(group, BODIES.evaluated(one)) for one in bodies_at_rest(tank)]
     return Section(
         title="Bodies at rest" if whole else "Bodies at rest, per metre of width",
-        headings=("quantity", *(f"{values['kind']} {values['number']}" for values in found)),
+        headings=("quantity", *(f"{body[KIND]} {body[NUMBER]}" for body in found)),
         rows=[
-            (part.label, *(part.cell(values, BODIES) for values in found))
-            for part in heads[1:]
-            if any(values[part.key] is not None for values in found)
+            (part.label, *(body.cell(part) for body in found))
+            for part in group.quantities[2:]
+            if any(body[part] is not None for body in found)
         ],
     )

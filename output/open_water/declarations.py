@@ -26,3 +26,8 @@ def joined_array(key: str, meaning: str, dimensions: str, order: str = "", **mor
 def own_array(key: str, meaning: str, dimensions: str, value: Callable[[Any], Any], **more: Any) -> Quantity:
     """Return such an array of ``dataset.nc`` alone."""
     return joined_array(key, meaning, dimensions, value=value, in_summary=False, **more)
+
+
+def named_dofs(name: str, meaning: str = "motion") -> Quantity:
+    """Return the names of the motions as Capytaine writes them, along a dimension of their own."""
+    return own_array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])

@@ -8,17 +8,11 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.open_water import quantities as water
 from hydroelastic.output.open_water.declarations import own_array
-from hydroelastic.output.open_water.hull_pressures import ALONG_HULL, HULLS
+from hydroelastic.output.open_water.hull_pressures import ALONG_HULL, HULL_BODY, HULL_X, HULL_Y, PRESSURE
 from hydroelastic.output.open_water.irregular import SPECTRUM
-from hydroelastic.output.open_water.quantities import (
-    ALONG_BEAM,
-    DECAY,
-    PLATES,
-    RADIATION,
-    RESONANCE,
-    RESPONSE,
-)
+from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, RADIATION, RESONANCE, RESPONSE
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group
 
@@ -32,51 +26,22 @@ ROWS = {
     "motion": ("motion_time",),
 }
 """Dimensions whose places are the rows of the tables of an analysis."""
-_DEFLECTION = Group(
-    "deflection",
-    "deflection of a beam",
-    (
-        PLATES["body"],
-        RESPONSE["omega"],
-        RESPONSE["waves"],
-        PLATES["positions"],
-        PLATES["deflection"],
-        PLATES["bending_moment"],
-        PLATES["shear_force"],
-    ),
-)
-
-
-STRAIN = Group(
-    "strain",
-    "strain and stress of a plate",
-    (RESPONSE["omega"], PLATES["largest_strain"], PLATES["largest_stress"]),
-)
+# fmt: off
+# Tables: as many arguments on a line as fit.
+_DEFLECTION = Group("deflection", "deflection of a beam", (
+    water.PLATE_BODY, water.OMEGA, water.WAVES, water.POSITIONS, water.DEFLECTION, water.BENDING_MOMENT,
+    water.SHEAR_FORCE,
+))
+STRAIN = Group("strain", "strain and stress of a plate", (water.OMEGA, water.LARGEST_STRAIN, water.LARGEST_STRESS))
 """Columns of the table of strains."""
-
-
-_CURVE = Group(
-    "response_curve",
-    "response between the frequencies",
-    (
-        *(RESPONSE[key] for key in ("omega", "waves_from", "waves", "reflection", "transmission", "amplitudes")),
-        *(RESPONSE[key] for key in ("absorption", "drift_force")),
-        own_array(
-            "basis_error",
-            "estimated relative error by the reduced basis",
-            "omega",
-            lambda it: it.relative_error,
-            column="basis_error",
-        ),
-    ),
-)
-
-
-_PRESSURE = Group(
-    "pressure",
-    "pressure along a hull",
-    (HULLS["body"], RESPONSE["omega"], RESPONSE["waves"], HULLS["x"], HULLS["y"], HULLS["pressure"]),
-)
+_CURVE = Group("response_curve", "response between the frequencies", (
+    water.OMEGA, water.WAVES_FROM, water.WAVES, water.REFLECTION, water.TRANSMISSION, water.AMPLITUDES,
+    water.ABSORPTION, water.DRIFT_FORCE,
+    own_array("basis_error", "estimated relative error by the reduced basis", "omega", lambda it: it.relative_error,
+        column="basis_error"),
+))
+_PRESSURE = Group("pressure", "pressure along a hull", (HULL_BODY, water.OMEGA, water.WAVES, HULL_X, HULL_Y, PRESSURE))
+# fmt: on
 
 
 def open_columns(group: Group, table: Any, rows: tuple[str, ...] = ()) -> Iterator[Column]:

@@ -61,12 +61,13 @@ def pressure_along(table: ResponseTable, hull: HullPressure) -> Pressure:
 ALONG_HULL = "point_on_body_{.number}"
 _AROUND, _HALF = "azimuth_on_body_{.number}", "point_on_half_of_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (
-    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
-    own_array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
+    HULL_BODY := Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
+    HULL_X := own_array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
         variable="x_of_points_on_body_{.number}", column="x"),
-    own_array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
+    HULL_Y := own_array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
         variable="y_of_points_on_body_{.number}", column="y"),
-    own_array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
+    PRESSURE := own_array("pressure",
+        "pressure along the hull of body {.number}, by all waves, at points that do not move",
         f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
         unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
     joined_array("pressure_error", "its estimated error anywhere", "omega wave", "omega wave_direction wave",

@@ -40,10 +40,11 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
         lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
     own_array("relative_error", "estimated relative error of the transfer functions", "spectrum_omega",
         lambda it: it.relative_error, unit="1", variable="spectrum_relative_error", column="relative_error"),
-    Group("responses", "statistics of each response, in its unit", (
-        Quantity("quantity", "response"),
-        Quantity("unit", "its unit", short="unit"),
-        Quantity("significant_amplitude", "significant amplitude", short="significant", error="relative_error"),
+    RESPONSES := Group("responses", "statistics of each response, in its unit", (
+        QUANTITY := Quantity("quantity", "response"),
+        UNIT := Quantity("unit", "its unit", short="unit"),
+        SIGNIFICANT_AMPLITUDE := Quantity("significant_amplitude", "significant amplitude", short="significant",
+            error="relative_error"),
         Quantity("largest_amplitude", "most probable largest amplitude in the duration", short="largest",
             error="relative_error"),
         Quantity("zero_crossing_period", "zero-crossing period", "s", symbol="Tz", error="relative_error"),
@@ -56,7 +57,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
         Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
             printed=False),
     ), dimension="irregular_response", prefix="irregular_response"),
-    Group("air_gaps", "heights of points above the waves, linear in these", (
+    AIR_GAPS := Group("air_gaps", "heights of points above the waves, linear in these", (
         Quantity("x", "x of the point at rest", "m", value=lambda it: it.point.at[0], short="x", shown=".6g"),
         Quantity("y", "its height in the scene", "m", value=lambda it: it.point.at[1], printed=False),
         Quantity("across", "its distance from the plane of x and y", "m", value=lambda it: it.point.across,
@@ -80,7 +81,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
     DOFS,
     joined_array("equivalent_damping", "linear damping in place of quadratic damping", OF_BODIES, unit="kg/(m s)",
         of_roll=("kg/s", "kg m/s")),
-    Group("plates", "largest loads along each beam, and along the diameter of each round plate", (
+    LOADS := Group("plates", "largest loads along each beam, and along the diameter of each round plate", (
         Quantity("body", "number of the body", "1", value=lambda it: it.body + 1, short="body"),
         Quantity("largest_bending_moment", "most probable largest bending moment anywhere in the duration", "N",
             short="largest M", shown=".4g",

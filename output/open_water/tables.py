@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from math import pi
 from typing import Any
 
@@ -15,23 +16,20 @@ from hydroelastic.fem.open_water.results import (
 )
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, columns_of, headings_of, rows_of
-from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.digits import beyond_error, number, with_certain_digits
+from hydroelastic.output.open_water import estimates
+from hydroelastic.output.open_water import quantities as water
 from hydroelastic.output.open_water.bodies import bodies_section
-from hydroelastic.output.open_water.estimates import THIN_FLOAT_ROWS
 from hydroelastic.output.open_water.files import STRAIN, open_columns
-from hydroelastic.output.open_water.irregular import SPECTRUM
+from hydroelastic.output.open_water.irregular import AIR_GAPS, LOADS, RESPONSES, SPECTRUM
 from hydroelastic.output.open_water.linear_limits import beyond_linear_theory
-from hydroelastic.output.open_water.quantities import (
-    DECAY,
-    RADIATION,
-    RESPONSE,
-    WavesAndMotions,
-    region_words,
-)
+from hydroelastic.output.open_water.quantities import WavesAndMotions, region_words
 from hydroelastic.output.open_water.shown_rows import MOST_ROWS, largest, shown_rows
 from hydroelastic.output.open_water.time_tables import sections_over_time
-from hydroelastic.output.provenance import Summary, spent
-from hydroelastic.output.quantities import Group
+from hydroelastic.output.provenance import spent
+from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantity_tables import columns
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.dofs import Dof
@@ -39,20 +37,20 @@ from hydroelastic.physics.dofs import Dof
 _MOST_MOTIONS = 4
 
 
-def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
+def open_sections(solution: Any, summary: Reading) -> Iterator[Section]:
     """Yield the bodies at rest, the tables by analysis, the limits of the model, and the comparison with the thin-float
     theory.
 
     Args:
         solution: the solution.
-        summary: content of ``summary.json``.
+        summary: what is written of it.
     """
     yield bodies_section(solution)
     whole = solution.tank.geometry.is_whole
     for radiation in solution.radiation:
-        yield from _radiation(radiation, of_whole_solids(RADIATION) if whole else RADIATION)
-    for response in RESPONSE.of(solution):
-        yield from _response(response, of_whole_solids(RESPONSE) if whole else RESPONSE)
+        yield from _radiation(radiation, of_whole_solids(water.RADIATION) if whole else water.RADIATION)
+    for response in water.RESPONSE.of(solution):
+        yield from _response(response, of_whole_solids(water.RESPONSE) if whole else water.RESPONSE)
     for resonance in solution.resonance:
         yield _resonance(resonance)
     for decay in solution.decay:
@@ -66,34 +64,30 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
     yield from _estimates(solution.endless_float, summary)
 
 
-def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Iterator[Section]:
+def _estimates(infinite: InfiniteDraughtFloat | None, summary: Reading) -> Iterator[Section]:
     """Comparison of the thin-float theory with the field solution."""
-    estimate = summary["estimates"]["thin_float"]
-    if estimate["rows"]:
+    found = summary[estimates.ESTIMATES]
+    thin_float = found[estimates.THIN_FLOAT]
+    rows, round_rows = thin_float[estimates.THIN_FLOAT_ROWS], found[estimates.ROUND_BODY][estimates.ROUND_BODY_ROWS]
+    headings = tuple(part.key for part in estimates.THIN_FLOAT_ROWS.parts)
+    if rows:
         yield Section(
             title="The thin-float theory beside the field solution",
-            headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
-            rows=[
-                (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
-                for row in estimate["rows"]
-            ],
+            headings=headings,
+            rows=columns(rows),
             lines=(
-                f"{estimate['note']} Of curves the largest difference is shown, in parts of the largest value, or of "
-                "the displacement at first.",
+                f"{thin_float[estimates.NOTE]} Of curves the largest difference is shown, in parts of the largest "
+                "value, or of the displacement at first.",
             ),
             compares=True,
         )
-    rows = summary["estimates"]["round_body"]["rows"]
-    if rows:
+    if round_rows:
         of_surge = "Of surge the largest difference of all frequencies is shown, as a part of the largest value."
         yield Section(
             title="Closed forms and older estimates beside the field solution",
-            headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
-            rows=[
-                (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
-                for row in rows
-            ],
-            lines=(of_surge,) if any(" of surge " in row["quantity"] for row in rows) else (),
+            headings=headings,
+            rows=columns(round_rows),
+            lines=(of_surge,) if any(" of surge " in row[estimates.QUANTITY] for row in round_rows) else (),
             compares=True,
         )
     if infinite is not None:
@@ -119,10 +113,11 @@ def infinite_draught_message(infinite: InfiniteDraughtFloat) -> str:
     )
 
 
-def open_cost(summary: Summary) -> str:
+def open_cost(summary: Reading) -> str:
     """Size and cost of the solution."""
-    size = summary["size"]
-    return f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns{spent(summary)}"
+    size = summary[water.SIZE]
+    cells = f"{size[water.CELLS]} cells, degree {size[water.DEGREE]}"
+    return f"{cells}, {size[water.DOFS]} unknowns{spent(summary)}"
 
 
 def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
@@ -134,12 +129,9 @@ def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
     )
-    left_out = ("wavenumbers",) if several else ()
-    printed = [
-        column
-        for column in open_columns(group, table)
-        if column.quantity.printed and column.quantity.key not in left_out
-    ]
+    left_out = water.WAVENUMBERS.key if several else ""
+    found = (column for column in open_columns(group, table) if column.quantity.printed)
+    printed = [column for column in found if column.quantity.key != left_out]
     for place, motion in enumerate(table.dofs):
         own = {"influenced_dof": place, "radiating_dof": place, "wave_direction": 0}
         columns = [column for column in printed if all(own.get(name, at) == at for name, at in column.places.items())]
@@ -157,25 +149,23 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     places = max(MOST_ROWS // count, 2)
     shown, thinned = shown_rows(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
-    found: dict[str, list[Column]] = {}
-    for column in open_columns(group, table):
-        found.setdefault(column.quantity.key, []).append(column)
-    first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    absorbed = ("absorption", "capture_width") if table.absorption.any() else ()
+    of = partial(_of, list(open_columns(group, table)))
+    first = of(water.OMEGA, *((water.WAVES,) if count > 1 else ()))
+    absorbed = (water.ABSORPTION, water.CAPTURE_WIDTH) if table.absorption.any() else ()
     # Of two waves the table is as wide as a terminal without it.
-    drift = ("drift_force",) if count == 1 else ()
-    scattered = ("reflection", "transmission", "scattering_width")
-    keys = ("wavenumbers", *scattered, *absorbed, *drift, "energy_residual", "relative_error")
-    ratios = [*first, *(column for key in keys for column in found.get(key, []))]
+    drift = (water.DRIFT_FORCE,) if count == 1 else ()
+    scattered = water.REFLECTION, water.TRANSMISSION, water.SCATTERING_WIDTH
+    errors = water.ENERGY_RESIDUAL, water.RESPONSE_ERROR
+    ratios = [*first, *of(water.WAVENUMBERS, *scattered, *absorbed, *drift, *errors)]
     what = "ratios of elevations" if table.partial_waves is None else "scattered waves"
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(group, ratios, rows, found["drift_error"]),
+        rows=rows_of(group, ratios, rows, of(water.DRIFT_ERROR)),
         lines=thinned,
     )
-    motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
-    shown_parts = (first, [*motions, *found["relative_error"]], phases)
+    motions, phases = of(water.AMPLITUDES)[:_MOST_MOTIONS], of(water.PHASE_AT_BODY)[:_MOST_MOTIONS]
+    shown_parts = (first, [*motions, *of(water.RESPONSE_ERROR)], phases)
     left_out = len(table.dofs) - len(motions)
     yield Section(
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
@@ -191,6 +181,11 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
         ),
     )
     yield from _strains(table, rows)
+
+
+def _of(found: Sequence[Column], *quantities: Quantity) -> list[Column]:
+    """The columns of some quantities, in units of sections or of whole solids."""
+    return [column for one in quantities for column in found if column.quantity.key == one.key]
 
 
 def _strains(table: WavesAndMotions, shown: list[int]) -> Iterator[Section]:
@@ -248,10 +243,11 @@ def _counted(table: ResonanceTable) -> str:
 
 def _decay(table: DecayTable) -> Section:
     shown, thinned = shown_rows(len(table.times), "times", "decay.csv")
-    columns = {column.name: column for column in open_columns(DECAY, table)}
-    time, error = columns.pop("time"), columns.pop("absolute_error")
+    of = partial(_of, list(open_columns(water.DECAY, table)))
+    (time,), (error,) = of(water.DECAY_TIMES), of(water.DECAY_ERROR)
     # Released motions are first.
-    motions = sorted(columns.values(), key=lambda column: table.initial[column.places["dof"]] == 0.0)[:_MOST_MOTIONS]
+    motions = sorted(of(water.DISPLACEMENT), key=lambda column: table.initial[column.places["dof"]] == 0.0)
+    motions = motions[:_MOST_MOTIONS]
     left_out = len(table.dofs) - len(motions)
     units = {"rad" if table.dofs[column.places["dof"]].is_rotation else "m" for column in motions}
     rows = [
@@ -281,7 +277,6 @@ def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
     """Statistics of the responses to irregular waves, and of loads along beams, of whole solids or of sections."""
     per = "" if whole else "/m"
     power = f", mean power that damping takes: {table.mean_absorbed_power:.5g} W{per}"
-    responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
     about = (
         f"Mean drift force along x: {beyond_error(table.mean_drift_force, table.mean_drift_error)} N{per}"
         f"{power if table.mean_absorbed_power else ''}.",
@@ -290,25 +285,25 @@ def _spectrum(table: SpectrumTable, whole: bool) -> Iterator[Section]:
         "peak lies between them: spectrum.csv.",
     )
     for group, title, lines in (
-        (responses, "Responses to irregular waves", about),
+        (RESPONSES, "Responses to irregular waves", about),
         (
-            SPECTRUM["air_gaps"],
+            AIR_GAPS,
             "Air gaps: elevation of the water less the motion of the point, and the smallest height above it",
             (f"Most probable largest and smallest values in {table.duration:g} s, linear in the waves.",),
         ),
         (
-            plates,
+            LOADS,
             "Moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",
             # Without points beams have no other table.
             () if table.responses else about,
         ),
     ):
-        found = [group.evaluated(one) for one in group.records(table)]
-        parts = [part for part in group.parts if part.printed and any(one[part.key] is not None for one in found)]
+        found = [Reading(group, group.evaluated(one)) for one in group.records(table)]
+        parts = [part for part in group.quantities if part.printed and any(one[part] is not None for one in found)]
         if found:
             yield Section(
                 title=title,
                 headings=tuple(part.heading for part in parts),
-                rows=[tuple(part.cell(one, group) for part in parts) for one in found],
+                rows=[tuple(map(one.cell, parts)) for one in found],
                 lines=lines,
             )

@@ -10,9 +10,9 @@ import numpy as np
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.output.columns import headings_of, rows_of
 from hydroelastic.output.digits import number
+from hydroelastic.output.open_water import time_quantities as over_time
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.shown_rows import largest, shown_rows
-from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section
 from hydroelastic.output.whole_units import of_whole_solids
@@ -23,7 +23,8 @@ _MOST_MOTIONS = 4
 def sections_over_time(solution: Any, whole: bool) -> Iterator[Section]:
     """Yield the tables of impulse responses and of motions in waves, of whole solids or per metre of width."""
     for impulse_response in solution.impulse_response:
-        yield _impulse_response(impulse_response, of_whole_solids(IMPULSE_RESPONSE) if whole else IMPULSE_RESPONSE)
+        group = over_time.IMPULSE_RESPONSE
+        yield _impulse_response(impulse_response, of_whole_solids(group) if whole else group)
     for motion in solution.motion:
         yield _motion(motion)
 
@@ -36,7 +37,7 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
         for column in open_columns(group, table)
         if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
     ]
-    added = group["infinite_frequency_added_mass"]
+    added = group[over_time.INFINITE_FREQUENCY_ADDED_MASS.key]
     units = [(unit or "").replace(" ", "·") for unit in (added.unit, added.of_roll[-1])]
     far = ", ".join(
         f"{dof.words} {number(float(value))} {units[dof.is_rotation]}"
@@ -59,12 +60,13 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
 
 
 def _motion(table: MotionTable) -> Section:
-    shown_keys = ("times", *(("elevation",) if len(table.wave_omega) else ()), "displacement")
+    elevation = (over_time.ELEVATION,) if len(table.wave_omega) else ()
+    printed = over_time.MOTION_TIMES, *elevation, over_time.MOTION_DISPLACEMENT
     shown, thinned = shown_rows(len(table.times), "times", "motion.csv")
     columns = [
         column
-        for column in open_columns(MOTION, table)
-        if column.quantity.key in shown_keys and column.places.get("dof", 0) < _MOST_MOTIONS
+        for column in open_columns(over_time.MOTION, table)
+        if column.quantity in printed and column.places.get("dof", 0) < _MOST_MOTIONS
     ]
     about = "η is that of the incident waves at the middle of the first body. " if len(table.wave_omega) else ""
     sizes = "; ".join(
@@ -74,7 +76,7 @@ def _motion(table: MotionTable) -> Section:
     return Section(
         title=f"Motion {table.beginning}",
         headings=headings_of(columns, "dof"),
-        rows=rows_of(MOTION, columns, shown),
+        rows=rows_of(over_time.MOTION, columns, shown),
         lines=(
             *thinned,
             f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",

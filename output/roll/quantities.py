@@ -56,10 +56,10 @@ def _swings_above(ship: RolledShip) -> list[dict[str, float]]:
 SHIP = Group("ship", "the ship", (
     Quantity("natural_period", "natural period", "s", "2π/k", value=lambda ship: 2.0 * pi / ship.natural_frequency),
     Quantity("natural_frequency", "natural frequency", "rad/s", "k"),
-    Quantity("damping", "damping", "1/s", "n"),
+    DAMPING := Quantity("damping", "damping", "1/s", "n"),
     Quantity("damping_ratio", "damping ratio", "1", "n/k", value=lambda ship: ship.damping / ship.natural_frequency),
     Quantity("regime", "regime of linear damping", value=regime),
-    Quantity("quadratic_damping", "quadratic damping", "1/rad", "d"),
+    QUADRATIC_DAMPING := Quantity("quadratic_damping", "quadratic damping", "1/rad", "d"),
 ), record=lambda result: result.solution.ship)
 FREE_DECAY = Group("free_decay", "decay of free oscillations by linear damping", (
     Quantity("period", "period of free motion", "s", value=lambda ship: 2.0 * pi / ship.damped_frequency),
@@ -69,7 +69,7 @@ FREE_DECAY = Group("free_decay", "decay of free oscillations by linear damping",
 ),  record=lambda result: result.solution.ship if result.solution.ship.damped_frequency else None,
     note="`null` where they do not oscillate")
 SECTION = Group("section", "roll of the section by its field solution, per metre of length", (
-    Quantity("title", "title of the section", printed=False),
+    TITLE := Quantity("title", "title of the section", printed=False),
     Quantity("natural_frequency", "natural frequency", "rad/s", "k", error="relative_error"),
     Quantity("stiffness", "stiffness", "N", "C"),
     Quantity("inertia", "inertia of the body", "kg m", "I"),
@@ -77,25 +77,27 @@ SECTION = Group("section", "roll of the section by its field solution, per metre
     Quantity("wave_damping", "wave damping", "kg m/s", "b", note="`null` in a closed tank"),
     Quantity("damping", "damping by waves", "1/s", "n", note="`null` in a closed tank"),
     Quantity("relative_error", "estimated error, of k and of the whole inertia", "1", shown=".1e"),
-    Quantity("followers", "motions that follow the roll without force", printed=False, dimensions=("follower",)),
+    FOLLOWERS := Quantity("followers", "motions that follow the roll without force", printed=False,
+        dimensions=("follower",)),
 ), note="`null` without a section")
 EXCEEDANCES = Group("exceedances", "swings above levels", (
-    Quantity("level", "level", "rad"),
+    LEVEL := Quantity("level", "level", "rad"),
     Quantity("swings", "swings above it", "1", note="largest angles between zeros"),
 ), record=_swings_above, dimension="exceedance", prefix="exceedance")
 # Largest angles are rounded for reading; summary.json has all digits.
 RESPONSE = Group("response", "the motion", (
-    Quantity("waves", "number of waves", "1", value=lambda it: len(it.solution.train.periods), printed=False),
+    WAVES := Quantity("waves", "number of waves", "1", value=lambda it: len(it.solution.train.periods), printed=False),
     Quantity("end_of_waves", "end of the last wave", "s", value=lambda it: float(it.solution.train.starts[-1]),
         printed=False),
-    Quantity("until", "last time", "s", value=lambda it: float(it.solution.motion.times[-1]), printed=False),
-    Quantity("largest_angle", "largest angle", "rad", value=lambda it: it.solution.statistics.largest_angle,
-        error="relative_error", digits=6),
-    Quantity("largest_angle_degrees", "largest angle", "degree",
+    UNTIL := Quantity("until", "last time", "s", value=lambda it: float(it.solution.motion.times[-1]), shown=".6g",
+        printed=False),
+    LARGEST_ANGLE := Quantity("largest_angle", "largest angle", "rad",
+        value=lambda it: it.solution.statistics.largest_angle, error="relative_error", digits=6),
+    LARGEST_ANGLE_DEGREES := Quantity("largest_angle_degrees", "largest angle", "degree",
         value=lambda it: degrees(it.solution.statistics.largest_angle), error="relative_error", digits=6),
-    Quantity("restoring_is_linear", f"whether the largest angle is at most {LINEAR_UP_TO} rad",
+    RESTORING_IS_LINEAR := Quantity("restoring_is_linear", f"whether the largest angle is at most {LINEAR_UP_TO} rad",
         value=lambda it: abs(it.solution.statistics.largest_angle) <= LINEAR_UP_TO, printed=False),
-    Quantity("time_of_largest_angle", "time of the largest angle", "s",
+    TIME_OF_LARGEST_ANGLE := Quantity("time_of_largest_angle", "time of the largest angle", "s",
         value=lambda it: it.solution.statistics.largest_time, note="between the times of the output too"),
     Quantity("root_mean_square", "root mean square", "rad", value=lambda it: it.solution.statistics.root_mean_square),
     Quantity("swings", "swings", "1", value=lambda it: len(it.solution.statistics.swing_angles)),
@@ -117,8 +119,8 @@ _ARRAYS = (
 )
 ROLL = Group("", "a ship that rolls on a swell", (
     SHIP, FREE_DECAY, SECTION, RESPONSE,
-    Group("size", "size of the problem", (
-        Quantity("times", "number of times", "1", value=lambda it: len(it.solution.motion.times)),
+    SIZE := Group("size", "size of the problem", (
+        TIMES := Quantity("times", "number of times", "1", value=lambda it: len(it.solution.motion.times)),
         Quantity("waves", "number of waves", "1", value=lambda it: len(it.solution.train.periods)),
         PROCESSES,
     ), record=lambda result: result),

@@ -6,66 +6,70 @@ from collections.abc import Iterator
 from math import degrees
 
 from hydroelastic.output.digits import counted
-from hydroelastic.output.provenance import Summary, spent
+from hydroelastic.output.provenance import spent
 from hydroelastic.output.quantity_tables import columns, headings, listed
-from hydroelastic.output.roll.quantities import EXCEEDANCES, FREE_DECAY, LINEAR_UP_TO, RESPONSE, SECTION, SHIP
+from hydroelastic.output.reading import Reading
+from hydroelastic.output.roll import quantities as roll
 from hydroelastic.output.sections import Section
 
 
-def roll_sections(summary: Summary) -> Iterator[Section]:
-    """Yield the tables of the section, the ship and its motion; `summary` is the content of ``summary.json``."""
-    if summary["section"] is not None:
-        yield _section(summary["section"])
+def roll_sections(summary: Reading) -> Iterator[Section]:
+    """Yield the tables of the section, the ship and its motion."""
+    if summary[roll.SECTION] is not None:
+        yield _section(summary[roll.SECTION])
     yield _ship(summary)
-    yield _response(summary["response"])
-    if summary["response"]["exceedances"]:
-        yield _exceedances(summary["response"])
+    response = summary[roll.RESPONSE]
+    yield _response(response)
+    if response[roll.EXCEEDANCES]:
+        yield _exceedances(response[roll.EXCEEDANCES])
 
 
-def _section(section: Summary) -> Section:
-    followers = " and ".join(section["followers"])
+def _section(section: Reading) -> Section:
+    followers = " and ".join(section[roll.FOLLOWERS])
     return Section(
-        title=f"Section: {section['title'] or 'untitled'}, per metre of length",
+        title=f"Section: {section[roll.TITLE] or 'untitled'}, per metre of length",
         headings=("roll", "value"),
-        rows=listed(SECTION, section),
+        rows=listed(section),
         lines=(f"The section is free to follow its roll in {followers}: no force acts on it there.",) * bool(followers),
     )
 
 
-def _ship(summary: Summary) -> Section:
-    ship, decay = summary["ship"], summary["free_decay"]
-    rows = listed(SHIP, {key: value for key, value in ship.items() if key != "quadratic_damping" or value})
-    if decay is not None and ship["damping"]:
-        rows += listed(FREE_DECAY, decay)
+def _ship(summary: Reading) -> Section:
+    ship, decay = summary[roll.SHIP], summary[roll.FREE_DECAY]
+    rows = listed(ship if ship[roll.QUADRATIC_DAMPING] else ship.without(roll.QUADRATIC_DAMPING))
+    if decay is not None and ship[roll.DAMPING]:
+        rows += listed(decay)
     return Section(title="Ship", headings=("quantity", "value"), rows=rows)
 
 
-def _response(response: Summary) -> Section:
-    waves = response["waves"]
-    title = f"Motion {'on ' + counted(waves, 'wave') if waves else 'in calm water'}, until {response['until']:.6g} s"
-    lines = () if response["restoring_is_linear"] else (_beyond_linear(response),)
-    return Section(title=title, headings=("quantity", "value"), rows=listed(RESPONSE, response), lines=lines)
+def _response(response: Reading) -> Section:
+    waves = response[roll.WAVES]
+    sea = f"on {counted(waves, 'wave')}" if waves else "in calm water"
+    return Section(
+        title=f"Motion {sea}, until {response.cell(roll.UNTIL)} s",
+        headings=("quantity", "value"),
+        rows=listed(response),
+        lines=() if response[roll.RESTORING_IS_LINEAR] else (_beyond_linear(response),),
+    )
 
 
-def _beyond_linear(response: Summary) -> str:
+def _beyond_linear(response: Reading) -> str:
     return (
-        f"BEYOND THE THEORY: the angle reaches {abs(response['largest_angle_degrees']):.4g} degrees. What restores a "
-        f"ship is linear up to about {degrees(LINEAR_UP_TO):.0f} degrees only, so none rolls like this. "
+        f"BEYOND THE THEORY: the angle reaches {abs(response[roll.LARGEST_ANGLE_DEGREES]):.4g} degrees. What restores "
+        f"a ship is linear up to about {degrees(roll.LINEAR_UP_TO):.0f} degrees only, so none rolls like this. "
         "Were slopes and angles given in rad?"
     )
 
 
-def _exceedances(response: Summary) -> Section:
-    level, swings = headings(EXCEEDANCES)
+def _exceedances(found: list[Reading]) -> Section:
+    level, swings = headings(roll.EXCEEDANCES)
     rows = [
-        (cell, f"{degrees(entry['level']):.4g}", count)
-        for entry, (cell, count) in zip(
-            response["exceedances"], columns(EXCEEDANCES, response["exceedances"]), strict=True
-        )
+        (cell, f"{degrees(entry[roll.LEVEL]):.4g}", count)
+        for entry, (cell, count) in zip(found, columns(found), strict=True)
     ]
     return Section(title="Exceedances", headings=(level, "level, degrees", swings), rows=rows)
 
 
-def roll_cost(summary: Summary) -> str:
+def roll_cost(summary: Reading) -> str:
     """Return a line about size and time of the solution."""
-    return f"{summary['size']['times']} times{spent(summary)}"
+    return f"{summary[roll.SIZE][roll.TIMES]} times{spent(summary)}"

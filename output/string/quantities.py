@@ -95,52 +95,55 @@ def _finite(value: float) -> float | None:
 # fmt: off
 # A table: as many arguments on a line as fit.
 STRING = Group("string", "the string", (
-    Quantity("travel_time", "time that a wave takes along the string", "s", "R"),
-    Quantity("damping", "mean damping", "1/s", "α"),
+    TRAVEL_TIME := Quantity("travel_time", "time that a wave takes along the string", "s", "R"),
+    DAMPING := Quantity("damping", "mean damping", "1/s", "α"),
     Quantity("apparent_gravity", "apparent gravity", "m/s^2", "g(ρ − ρ_d)/(ρ + m_a)"),
-    Quantity("first_oscillating_mode", "first mode that oscillates", "1",
+    FIRST_OSCILLATING_MODE := Quantity("first_oscillating_mode", "first mode that oscillates", "1",
         value=lambda string: first_oscillating_mode(string) if string.has_closed_form else None,
         note="of a string with a free end and a uniform resistance, else `null`"),
-    Quantity("critical_resistance", "critical resistance of the first mode", "kg/(m s)",
+    CRITICAL_RESISTANCE := Quantity("critical_resistance", "critical resistance of the first mode", "kg/(m s)",
         value=lambda string: natural_frequency(string, 1) * string.inertia if string.has_closed_form else None,
         note="of a string with a free end and a uniform resistance, else `null`"),
 ), record=lambda result: result.solution.string)
 MODES = Group("modes", "free motions e^{pt} by ascending magnitude, one of each conjugate pair", (
-    Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|p|", error="relative_error", digits=12,
-        variable="omega", note="the natural frequency Ω of a mode that oscillates with uniform damping"),
+    MODE_OMEGA := Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|p|", error="relative_error",
+        digits=12, variable="omega", note="the natural frequency Ω of a mode that oscillates with uniform damping"),
     Quantity("frequency_hz", "frequency of a free motion", "Hz", "f", value=lambda mode: mode.root.imag / (2.0 * pi),
         shown=".6g"),
     Quantity("damped_omega", "angular frequency of a free motion", "rad/s", "Im p", value=lambda mode: mode.root.imag),
     Quantity("decay", "rate at which a free motion decays", "1/s", "−Re p", value=lambda mode: -mode.root.real),
-    Quantity("kind", "kind", value=lambda mode: "oscillating" if mode.root.imag > 0.0 else "aperiodic",
+    KIND := Quantity("kind", "kind", value=lambda mode: "oscillating" if mode.root.imag > 0.0 else "aperiodic",
         note='`"oscillating"` or `"aperiodic"`'),
     Quantity("relative_error", "relative error", "1", shown=".1e", note="estimated, of the root"),
 ), record=_free_motions, dimension="mode", prefix="mode")
 BESIDE_FRONTS = Group("beside_fronts",
     "values beside wave fronts, where the displacement or a derivative of it jumps", (
-    Quantity("within", "distance from a front up to which a value is beside it, in travel times", "1"),
-    Quantity("points", "number of values beside fronts", "1"),
-    Quantity("absolute_error", "estimated error beside fronts", "m"),
+    WITHIN := Quantity("within", "distance from a front up to which a value is beside it, in travel times", "1"),
+    POINTS := Quantity("points", "number of values beside fronts", "1"),
+    BESIDE_ERROR := Quantity("absolute_error", "estimated error beside fronts", "m", shown=".1e"),
 ))
 RESPONSE = Group("response", "displacements at the heights and times asked", (
-    Quantity("largest_displacement", "largest displacement at the heights and times asked", "m", error="relative_error",
+    LARGEST_DISPLACEMENT := Quantity("largest_displacement", "largest displacement at the heights and times asked", "m",
+        error="relative_error",
         note="of all values away from fronts, and of those beside fronts that meet the tolerance"),
-    Quantity("at_position", "height of the largest displacement", "m"),
-    Quantity("at_time", "time of the largest displacement", "s"),
-    Quantity("until", "last time", "s", printed=False),
+    AT_POSITION := Quantity("at_position", "height of the largest displacement", "m"),
+    AT_TIME := Quantity("at_time", "time of the largest displacement", "s"),
+    UNTIL := Quantity("until", "last time", "s", shown=".6g", printed=False),
     Quantity("points", "values", "1"),
     Quantity("absolute_error", "estimated error away from fronts", "m", printed=False),
     Quantity("relative_error", "estimated error, of the largest", "1", shown=".1e", note="away from fronts"),
     BESIDE_FRONTS,
 ), record=_response)
 STEADY = Group("steady", "steady motion under a sine", (
-    Quantity("positions", "heights above the free end", "m", dimensions=("position",), variable=""),
-    Quantity("amplitude", "amplitude of the steady motion", "m", "A(x)", dimensions=("position",),
+    POSITIONS := Quantity("positions", "heights above the free end", "m", dimensions=("position",), variable=""),
+    AMPLITUDE := Quantity("amplitude", "amplitude of the steady motion", "m", "A(x)", dimensions=("position",),
         note="`null` if infinite"),
-    Group("nearest_resonance", "the nearest resonance of the free end", (
-        Quantity("mode", "mode near which the free end moves most", "1"),
-        Quantity("omega", "ω of the largest steady motion", "rad/s", note="`null` where drag leaves no peak"),
-        Quantity("amplitude", "largest steady amplitude of the free end", "m", note="`null` if infinite"),
+    NEAREST_RESONANCE := Group("nearest_resonance", "the nearest resonance of the free end", (
+        RESONANT_MODE := Quantity("mode", "mode near which the free end moves most", "1"),
+        RESONANT_OMEGA := Quantity("omega", "ω of the largest steady motion", "rad/s",
+            note="`null` where drag leaves no peak"),
+        RESONANT_AMPLITUDE := Quantity("amplitude", "largest steady amplitude of the free end", "m",
+            note="`null` if infinite"),
     )),
 ), record=_steady, note="`null` for other motions, and without a closed form")
 _ARRAYS = (
@@ -156,14 +159,14 @@ _ARRAYS = (
         lambda it: it.solution.free_motions.shapes),
 )
 HANGING_STRING = Group("", "a hanging string whose upper end is moved", (
-    Quantity("method", "method of solution", note='`"series"` or `"field"`'),
+    METHOD := Quantity("method", "method of solution", note='`"series"` or `"field"`'),
     STRING, MODES, RESPONSE, STEADY,
-    Group("size", "size of the problem", (
-        Quantity("terms", "largest number of terms of a series", "1"),
-        Quantity("cells", "number of cells of a field solution", "1"),
-        Quantity("degree", "degree of its polynomials", "1"),
-        Quantity("dofs", "number of its unknowns", "1"),
-        Quantity("steps", "number of its steps in time", "1"),
+    SIZE := Group("size", "size of the problem", (
+        TERMS := Quantity("terms", "largest number of terms of a series", "1"),
+        CELLS := Quantity("cells", "number of cells of a field solution", "1"),
+        DEGREE := Quantity("degree", "degree of its polynomials", "1"),
+        DOFS := Quantity("dofs", "number of its unknowns", "1"),
+        STEPS := Quantity("steps", "number of its steps in time", "1"),
         PROCESSES,
     ), record=lambda result: result.solution.size),
     *_ARRAYS,

@@ -7,7 +7,11 @@ from typing import Any
 
 from hydroelastic.output.digits import number
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantity_tables import columns, headings
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
+from hydroelastic.output.thread import comparison as compared
 
 _EXPLAINED = {True: "yes", False: "NO"}
 _NOT_EXPLAINED = (
@@ -21,85 +25,80 @@ def comparison_sections(comparison: Summary) -> Iterator[Section]:
     Args:
         comparison: of `thread_differences`.
     """
-    if comparison["shapes"]:
-        yield from (_shapes(comparison, quantity) for quantity in ("position", "tension"))
-    for estimate in comparison["values"]:
-        yield _values(estimate)
-    if comparison["inapplicable"]:
-        yield _inapplicable(comparison)
+    told = Reading(compared.COMPARISON, comparison)
+    if told[compared.SHAPES]:
+        yield _shapes(told, "position", compared.POSITION, compared.POSITION_ERROR)
+        yield _shapes(told, "tension", compared.TENSION, compared.TENSION_ERROR)
+    yield from map(_values, told[compared.VALUES])
+    if told[compared.INAPPLICABLE]:
+        yield _inapplicable(told[compared.INAPPLICABLE])
 
 
-def _inapplicable(comparison: Summary) -> Section:
+def _inapplicable(entries: list[Reading]) -> Section:
     """Estimates that do not apply, by reasons."""
     names: dict[str, list[str]] = {}
-    for entry in comparison["inapplicable"]:
-        names.setdefault(entry["reason"], []).append(entry["name"])
+    for entry in entries:
+        names.setdefault(entry[compared.REASON], []).append(entry[compared.NAME])
     notes = tuple(f"{'; '.join(those)}: {reason}." for reason, those in names.items())
     return Section(title="Estimates that do not apply, and why", notes=notes)
 
 
-def _shapes(comparison: Summary, quantity: str) -> Section:
-    unit = {"position": "m", "tension": "N"}[quantity]
+def _shapes(comparison: Reading, what: str, beside: Group, field_error: Quantity) -> Section:
+    field, estimates, unit = comparison[compared.FIELD], comparison[compared.SHAPES], field_error.unit
     rows = [
         (
-            estimate["name"],
+            estimate[compared.NAME],
             _order(estimate),
-            "–" if estimate["order"] is None else f"{estimate['small']:.2g}",
-            f"{estimate[quantity]['difference']:.2e}",
-            f"{estimate[quantity]['left_out']:.1e}",
-            _EXPLAINED[estimate[quantity]["explained"]],
-            f"{estimate['seconds']:.3f}",
+            "–" if estimate[compared.ORDER] is None else estimate.cell(compared.SMALL),
+            f"{estimate[beside][compared.DIFFERENCE]:.2e}",
+            estimate[beside].cell(compared.LEFT_OUT),
+            _EXPLAINED[estimate[beside][compared.EXPLAINED]],
+            estimate.cell(compared.ESTIMATE_SECONDS),
         )
-        for estimate in comparison["shapes"]
+        for estimate in estimates
     ]
-    headings = ("estimate", "order", "small", f"difference, {unit}", f"left out, {unit}", "explained", "seconds")
-    error = comparison["field"][f"{quantity}_error"]
-    lines = [f"Estimated error of the field solution: {error:.1e} {unit}; it took {_seconds(comparison)} s."]
-    parameters = {estimate["parameter"] for estimate in comparison["shapes"] if estimate["parameter"]}
+    error, seconds = field.cell(field_error), field.cell(compared.SECONDS)
+    lines = [f"Estimated error of the field solution: {error} {unit}; it took {seconds} s."]
+    parameters = {estimate[compared.PARAMETER] for estimate in estimates if estimate[compared.PARAMETER]}
     if parameters:
         lines.append(f"What must be small: {'; '.join(sorted(parameters))}.")
-    if any(not estimate[quantity]["explained"] for estimate in comparison["shapes"]):
+    if not all(estimate[beside][compared.EXPLAINED] for estimate in estimates):
         lines.append(_NOT_EXPLAINED)
     return Section(
-        title=f"Largest difference of a {quantity} from older theories",
-        headings=headings,
+        title=f"Largest difference of a {what} from older theories",
+        headings=("estimate", "order", "small", f"difference, {unit}", f"left out, {unit}", "explained", "seconds"),
         rows=rows,
         lines=tuple(lines),
     )
 
 
-def _seconds(comparison: Summary) -> str:
-    return f"{comparison['field']['seconds']:.2f}"
+def _order(estimate: Reading) -> str:
+    return "exact" if estimate[compared.ORDER] is None else str(estimate[compared.ORDER])
 
 
-def _order(estimate: Summary) -> str:
-    return "exact" if estimate["order"] is None else str(estimate["order"])
-
-
-def _values(estimate: Summary) -> Section:
-    rows = [
-        (
-            str(entry["number"]),
-            _shown(entry["field"]),
-            _shown(entry["estimate"]),
-            f"{entry['difference']:.1e}",
-            f"{entry['field_error']:.1e}",
-            f"{entry['left_out']:.1e}",
-            _EXPLAINED[entry["explained"]],
-        )
-        for entry in estimate["compared"]
-    ]
-    headings = ("number", "field solution", "estimate", "difference", "error of field", "left out", "explained")
-    kind = "exact" if estimate["order"] is None else f"order {estimate['order']}"
-    small = f", {estimate['parameter']} = {estimate['small']:.2g}" if estimate["parameter"] else ""
-    lines = [f"The estimate took {estimate['seconds']:.3f} s."]
-    if not rows:
+def _values(estimate: Reading) -> Section:
+    entries = estimate[compared.COMPARED]
+    kind = "exact" if estimate[compared.ORDER] is None else f"order {estimate[compared.ORDER]}"
+    parameter = estimate[compared.PARAMETER]
+    small = f", {parameter} = {estimate.cell(compared.SMALL)}" if parameter else ""
+    lines = [f"The estimate took {estimate.cell(compared.ESTIMATE_SECONDS)} s."]
+    if not entries:
         lines.append("The field solution has none of them.")
-    if any(not entry["explained"] for entry in estimate["compared"]):
+    if not all(entry[compared.EXPLAINED] for entry in entries):
         lines.append(_NOT_EXPLAINED)
-    title = f"{estimate['name']} ({kind}{small}): {estimate['quantity']}"
-    return Section(title=title, headings=headings, rows=rows, lines=tuple(lines))
+    return Section(
+        title=f"{estimate[compared.NAME]} ({kind}{small}): {estimate[compared.QUANTITY]}",
+        headings=headings(compared.COMPARED),
+        rows=columns([_shown(entry) for entry in entries]),
+        lines=tuple(lines),
+    )
 
 
-def _shown(value: Any) -> str:
+def _shown(entry: Reading) -> Reading:
+    """A compared value as it is shown: complex ones as one number, and loudly what is not explained."""
+    values = {part: _complex(entry[part]) for part in (compared.OF_FIELD, compared.OF_ESTIMATE)}
+    return entry | values | {compared.EXPLAINED: _EXPLAINED[entry[compared.EXPLAINED]]}
+
+
+def _complex(value: Any) -> str:
     return f"{value[0]:.6g} {value[1]:+.7g}i" if isinstance(value, list) else number(value)

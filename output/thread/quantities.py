@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.frame import Frame
-from hydroelastic.fem.thread.modes import Roots, ThreadModes
-from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity, array
+
+if TYPE_CHECKING:
+    from hydroelastic.fem.thread.frame import Frame
+    from hydroelastic.fem.thread.modes import Roots, ThreadModes
+    from hydroelastic.fem.thread.motion_in_space import MotionInSpace
+    from hydroelastic.fem.thread.stability import Stability
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,11 +92,12 @@ def _energy(motion: MotionInSpace) -> NDArray[np.float64]:
 _ALONG = "distance from end A along the thread"
 EQUILIBRIUM = Group("equilibrium", "the equilibrium", (
     Quantity("end_positions", "positions of the ends A and B", "m", dimensions=("end", "axis"), error="position_error"),
-    Quantity("end_tensions", "tensions at the ends A and B", "N", dimensions=("end",), error="tension_error"),
+    END_TENSIONS := Quantity("end_tensions", "tensions at the ends A and B", "N", dimensions=("end",),
+        error="tension_error"),
     Quantity("reactions", "support forces on the thread at A and B", "N", dimensions=("end", "axis"), variable="",
         error="reaction_error"),
-    Quantity("end_moments", "bending moments at A and B", "N m", "|EI κ|", dimensions=("end",), variable="",
-        error="moment_error"),
+    END_MOMENTS := Quantity("end_moments", "bending moments at A and B", "N m", "|EI κ|", dimensions=("end",),
+        variable="", error="moment_error"),
     Quantity("largest_tension", "largest tension of the whole thread", "N", error="tension_error", printed=False),
     Quantity("smallest_tension", "smallest tension of the whole thread", "N", error="tension_error"),
     Quantity("smallest_tension_at", "place of the smallest tension along the thread", "m",
@@ -108,11 +111,11 @@ EQUILIBRIUM = Group("equilibrium", "the equilibrium", (
     Quantity("position_error", "estimated error of positions", "m", shown=".1e"),
     Quantity("tension_error", "estimated error of tensions", "N", shown=".1e"),
     Quantity("reaction_error", "estimated error of the support forces", "N", shown=".1e"),
-    Quantity("moment_error", "estimated error of moments", "N m", shown=".1e"),
+    MOMENT_ERROR := Quantity("moment_error", "estimated error of moments", "N m", shown=".1e"),
     Quantity("relative_error", "largest of these errors, of the length, the largest force, the largest moment", "1",
         shown=".1e", printed=False),
-    Quantity("start", "[start](../scenes_threads.md#how-a-start-is-chosen) of Newton's method", printed=False),
-    Quantity("newton_steps", "steps of Newton's method on each mesh", "1", dimensions=("newton_mesh",),
+    START := Quantity("start", "[start](../scenes_threads.md#how-a-start-is-chosen) of Newton's method", printed=False),
+    NEWTON_STEPS := Quantity("newton_steps", "steps of Newton's method on each mesh", "1", dimensions=("newton_mesh",),
         printed=False),
     Quantity("failed_starts", "why the starts before it failed", dimensions=("failed_start",), printed=False),
     array("position", "position at rest, z upwards", "m", "s axis", lambda it: it.positions, error="position_error"),
@@ -124,22 +127,24 @@ EQUILIBRIUM = Group("equilibrium", "the equilibrium", (
     array("end_moment", "bending moment", "N m", "end", lambda rest: rest.end_moments, error="moment_error"),
 ), record=lambda solution: solution.rest)
 _OF_A_ROOT = (
-    Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|λ|", printed=False),
-    Quantity("damped_omega", "angular frequency of a free motion", "rad/s", "Im λ", error="relative_error", digits=12),
-    Quantity("frequency_hz", "frequency of a free motion", "Hz", "f", shown=".6g"),
-    Quantity("decay", "rate at which a free motion decays", "1/s", "−Re λ"),
-    Quantity("damping_ratio", "damping ratio of a free motion", "1", "−Re λ/|λ|", short="damping ratio",
-        shown=".4g"),
-    Quantity("out_of_plane", "part of the kinetic energy across the plane of the equilibrium", "1", short="direction",
-        note="0 to 1, `null` where the plane is not unique"),
-    Quantity("relative_error", "estimated relative error of the root", "1", short="relative error", shown=".1e"),
+    ROOT_OMEGA := Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|λ|", printed=False),
+    DAMPED_OMEGA := Quantity("damped_omega", "angular frequency of a free motion", "rad/s", "Im λ",
+        error="relative_error", digits=12),
+    FREQUENCY := Quantity("frequency_hz", "frequency of a free motion", "Hz", "f", shown=".6g"),
+    DECAY := Quantity("decay", "rate at which a free motion decays", "1/s", "−Re λ"),
+    DAMPING_RATIO := Quantity("damping_ratio", "damping ratio of a free motion", "1", "−Re λ/|λ|",
+        short="damping ratio", shown=".4g"),
+    OUT_OF_PLANE := Quantity("out_of_plane", "part of the kinetic energy across the plane of the equilibrium", "1",
+        short="direction", note="0 to 1, `null` where the plane is not unique"),
+    ROOT_ERROR := Quantity("relative_error", "estimated relative error of the root", "1", short="relative error",
+        shown=".1e"),
 )
 MODES = Group("modes", "free motions e^{λt} about the equilibrium, by analysis", (
-    Group("oscillating", "motions that oscillate, as many as asked", _OF_A_ROOT,
+    OSCILLATING := Group("oscillating", "motions that oscillate, as many as asked", _OF_A_ROOT,
         record=lambda it: _roots(it.modes.oscillating), dimension="oscillating_mode", prefix="oscillating"),
-    Group("aperiodic", "motions that do not oscillate, up to the magnitude of the last one that does", _OF_A_ROOT,
-        record=lambda it: _roots(it.modes.aperiodic), dimension="aperiodic_mode", prefix="aperiodic"),
-    Quantity("stable", "whether no motion grows", value=lambda it: it.modes.is_stable),
+    APERIODIC := Group("aperiodic", "motions that do not oscillate, up to the magnitude of the last one that does",
+        _OF_A_ROOT, record=lambda it: _roots(it.modes.aperiodic), dimension="aperiodic_mode", prefix="aperiodic"),
+    STABLE := Quantity("stable", "whether no motion grows", value=lambda it: it.modes.is_stable),
     array("mode", "number of the mode", None, "mode", lambda it: np.arange(1, len(it.joined("values")) + 1)),
     array("mode_s", _ALONG, "m", "mode_s", lambda it: it.modes.nodes),
     array("root", "root λ of a free motion e^{λt}", "1/s", "mode", lambda it: it.joined("values")),
@@ -148,19 +153,20 @@ MODES = Group("modes", "free motions e^{λt} about the equilibrium, by analysis"
         "mode mode_s axis", lambda it: it.frame.to_space(it.joined("shapes"))),
 ), record=lambda it: [_ModesInSpace(modes=modes, frame=it.frame) for modes in it.modes], dimension="modes_analysis")
 THRESHOLDS = Group("thresholds", "thresholds of stability", (
-    Quantity("kind", "kind", note='`"divergence"`, K is singular, or `"flutter"`'),
-    Quantity("factor", "factor of the stream", "1", error="relative_error", digits=12),
+    THRESHOLD_KIND := Quantity("kind", "kind", note='`"divergence"`, K is singular, or `"flutter"`'),
+    FACTOR := Quantity("factor", "factor of the stream", "1", error="relative_error", digits=12),
     Quantity("omega", "angular frequency at the threshold", "rad/s", "ω"),
     Quantity("growing_below", "number of growing motions below", "1", short="growing below"),
     Quantity("growing_above", "number of growing motions above", "1", short="growing above"),
     Quantity("relative_error", "estimated relative error of the factor", "1", short="relative error", shown=".1e"),
 ), dimension="threshold", prefix="threshold")
 STABILITY = Group("stability", "stability in the stream multiplied by factors, by analysis", (
-    Quantity("factors", "factors of the stream", "1", dimensions=("factor",), variable=""),
+    FACTORS := Quantity("factors", "factors of the stream", "1", dimensions=("factor",), variable=""),
     Quantity("growing", "number of growing motions at each factor", "1", dimensions=("factor",), variable=""),
     THRESHOLDS,
-    Quantity("ill_posed_from", "first factor at which the problem is ill-posed", "1", note="or `null`"),
-    Quantity("ill_posed_reason", "why it is ill-posed there", note="or `null`"),
+    ILL_POSED_FROM := Quantity("ill_posed_from", "first factor at which the problem is ill-posed", "1",
+        note="or `null`"),
+    ILL_POSED_REASON := Quantity("ill_posed_reason", "why it is ill-posed there", note="or `null`"),
     array("factor", "factor of the stream", "1", "factor", lambda sweep: sweep["factors"]),
     array("followed_root", "root followed through the factors", "1/s", "factor branch", lambda sweep: sweep["roots"]),
     array("growing_motions", "number of motions that grow", "1", "factor", lambda sweep: sweep["growing"],
@@ -168,13 +174,13 @@ STABILITY = Group("stability", "stability in the stream multiplied by factors, b
 ), record=lambda it: [_stability(sweep) for sweep in it.stability], dimension="stability_analysis")
 MOTION = Group("motion",
     "motion in time, by analysis; extremes are those over all steps, between the times asked too", (
-    Quantity("until", "last time", "s", value=lambda motion: motion.times[-1], printed=False),
-    Quantity("steps", "number of steps", "1", printed=False),
-    Quantity("nodes", "number of nodes", "1", value=lambda motion: len(motion.nodes), printed=False),
-    Quantity("largest_tension", "largest tension over all steps", "N",
+    UNTIL := Quantity("until", "last time", "s", value=lambda motion: motion.times[-1], shown=".6g", printed=False),
+    MOTION_STEPS := Quantity("steps", "number of steps", "1", printed=False),
+    MOTION_NODES := Quantity("nodes", "number of nodes", "1", value=lambda motion: len(motion.nodes), printed=False),
+    LARGEST_TENSION := Quantity("largest_tension", "largest tension over all steps", "N",
         value=lambda motion: motion.extremes.highest.max(), error="extreme_tension_error"),
-    Quantity("largest_tension_at", "time and place along the thread of the largest tension", "s and m",
-        value=_largest_at, dimensions=("time_and_s",)),
+    LARGEST_TENSION_AT := Quantity("largest_tension_at", "time and place along the thread of the largest tension",
+        "s and m", value=_largest_at, dimensions=("time_and_s",)),
     Quantity("smallest_tension", "smallest tension over all steps", "N",
         value=lambda motion: motion.extremes.lowest.min(), error="extreme_tension_error"),
     Quantity("smallest_tension_at", "time and place along the thread of the smallest tension", "s and m",
@@ -188,11 +194,11 @@ MOTION = Group("motion",
         note="kinetic, of weight and dead forces, of stretch, of bending"),
     Quantity("energy_at_end", "energy at the end", "J", value=lambda motion: _energy(motion)[-1]),
     Quantity("work_of_drag", "work of drag", "J", value=lambda motion: motion.drag_work[-1]),
-    Group("slack", "times at which a part would be in compression", (
-        Quantity("from", "beginning", "s", value=lambda slack: slack.start),
+    SLACK := Group("slack", "times at which a part would be in compression", (
+        SLACK_FROM := Quantity("from", "beginning", "s", value=lambda slack: slack.start),
         Quantity("to", "end", "s", value=lambda slack: slack.end),
-        Quantity("at", "place along the thread", "m", value=lambda slack: slack.where),
-        Quantity("tension", "lowest tension", "N"),
+        SLACK_AT := Quantity("at", "place along the thread", "m", value=lambda slack: slack.where),
+        SLACK_TENSION := Quantity("tension", "lowest tension", "N"),
     ), dimension="slack", prefix="slack"),
     Quantity("distance_to_rest", "last distance from the equilibrium", "m", shown=".3g"),
     Quantity("step_error", "estimated error of positions by the steps", "m", shown=".1e"),
@@ -216,19 +222,19 @@ MOTION = Group("motion",
         variable="work_of_drag"),
 ), record=lambda solution: solution.motions, dimension="motion_analysis")
 THREAD = Group("", "a flexible thread in a stream", (
-    Group("thread", "what follows from the scene", (
+    DERIVED := Group("thread", "what follows from the scene", (
         Quantity("weight", "weight in the liquid", "N/m", "w"),
         Quantity("normal_drag", "normal drag", "N s^2/m^3", "kn"),
         Quantity("tangential_drag", "tangential drag", "N s^2/m^3", "kt"),
         Quantity("added_mass", "added mass", "kg/m", "ma"),
-        Quantity("dimension", "dimension in which it was solved", "1", note="2 or 3"),
+        DIMENSION := Quantity("dimension", "dimension in which it was solved", "1", note="2 or 3"),
     ), record=lambda solution: solution.derived),
     EQUILIBRIUM, MODES, STABILITY, MOTION,
-    Group("size", "size of the problem", (
-        Quantity("cells", "number of cells of the equilibrium", "1"),
-        Quantity("degree", "degree of its polynomials", "1"),
-        Quantity("dofs", "number of its unknowns", "1"),
-        Quantity("steps", "number of steps of all motions", "1"),
+    SIZE := Group("size", "size of the problem", (
+        CELLS := Quantity("cells", "number of cells of the equilibrium", "1"),
+        DEGREE := Quantity("degree", "degree of its polynomials", "1"),
+        DOFS := Quantity("dofs", "number of its unknowns", "1"),
+        STEPS := Quantity("steps", "number of steps of all motions", "1"),
         PROCESSES,
     )),
     array("s", _ALONG, "m", "s"),

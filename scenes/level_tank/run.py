@@ -14,7 +14,7 @@ from hydroelastic.output.level_tank.sample import SampledTank, sample_modes, sam
 from hydroelastic.output.level_tank.tables import compared_level_tank, level_tank_cost, level_tank_sections
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank, solve_level_scene
@@ -22,7 +22,7 @@ from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.staged_run import StagedRun
 
 
-def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
+def _sample(solved: SolvedLevelTank, summary: Reading) -> SampledTank:
     from hydroelastic.fem.plan.patches import level_patches
 
     tank = solved.tank
@@ -80,5 +80,5 @@ def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _messag
 
 def beside_estimates(outcome: Outcome) -> Outcome:
     """Return an outcome with the tables of the comparison alone."""
-    compared = tuple(compared_level_tank(outcome.summary)) or (Section(title="", lines=(NOTHING_TO_COMPARE,)),)
-    return replace(outcome, sections=compared, notes=True)
+    compared = tuple(compared_level_tank(run_level_tank.read(outcome.summary)))
+    return replace(outcome, sections=compared or (Section(title="", lines=(NOTHING_TO_COMPARE,)),), notes=True)

@@ -18,7 +18,7 @@ from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.open_water.tables import open_cost, open_sections
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.reading import Reading
 from hydroelastic.scenes.open_water.export import write_exports
 from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
@@ -49,7 +49,7 @@ class SampledWater:
     missing: tuple[str, ...]
 
 
-def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
+def _sample(solution: OpenSolution, _summary: Reading) -> SampledWater:
     sampled, missing = [], []
     problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
     plans = _plans(problem, solution) if solution.scene.is_revolved else ()

@@ -13,10 +13,18 @@ _Caption: TypeAlias = str | Callable[[Summary, int], str]
 
 
 def _mode(summary: Summary, number: int) -> str:
-    mode = summary["modes"][number - 1]
-    omega = with_certain_digits(mode["omega"], mode["relative_error"])
-    symmetry = f", {mode['symmetry']}" if mode["symmetry"] else ""
-    return f"Mode {number}: ω = {omega} rad/s, {mode['kind']}{symmetry}"
+    # Who only reads a result does without the libraries of solvers.
+    from hydroelastic.output.level_tank import quantities as level
+    from hydroelastic.output.tank import quantities as tank
+    from hydroelastic.scenes.report.families import family_of, reading_of
+
+    of_tank = tank.MODES, tank.MODE_OMEGA, tank.RELATIVE_ERROR, tank.KIND, tank.SYMMETRY
+    of_level_tank = level.MODES, level.MODE_OMEGA, level.RELATIVE_ERROR, level.KIND, level.SYMMETRY
+    modes, *parts = of_tank if family_of(summary) == "tank" else of_level_tank
+    mode = reading_of(summary)[modes][number - 1]
+    omega, error, kind, symmetry = (mode[part] for part in parts)
+    words = ", ".join(filter(None, (kind, symmetry)))
+    return f"Mode {number}: ω = {with_certain_digits(omega, error)} rad/s, {words}"
 
 
 def _oscillation(_summary: Summary, number: int) -> str:
@@ -24,7 +32,10 @@ def _oscillation(_summary: Summary, number: int) -> str:
 
 
 def _growing(summary: Summary, number: int) -> str:
-    return f"Motion that grows, number {number}: {summary['growing'][number - 1]['kind']}"
+    from hydroelastic.output.tank import quantities as tank
+    from hydroelastic.scenes.report.families import reading_of
+
+    return f"Motion that grows, number {number}: {reading_of(summary)[tank.GROWING][number - 1][tank.KIND]}"
 
 
 _CAPTIONS: tuple[tuple[str, _Caption], ...] = (
@@ -59,6 +70,18 @@ _PLACES = {name: place for place, (name, _) in enumerate(_CAPTIONS)}
 _NAME = re.compile(r"(?P<name>.+?)(?:_(?P<number>\d+)(?P<rest>.*))?")
 
 
+def _parts(stem: str) -> tuple[str, int, str]:
+    found = _NAME.fullmatch(stem)
+    assert found is not None
+    return found.group("name"), int(found.group("number") or 0), found.group("rest") or ""
+
+
+def place_among_others(stem: str) -> tuple[int, int, str]:
+    """Return the position of a picture among the others, by the name of its file without the ending."""
+    name, number, rest = _parts(stem)
+    return _PLACES.get(name, len(_CAPTIONS)), number, rest
+
+
 def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str], str]:
     """Return the position of a picture among the others, and its caption.
 
@@ -66,11 +89,8 @@ def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str]
         stem: name of its file, without the ending.
         summary: content of ``summary.json``.
     """
-    parts = _NAME.fullmatch(stem)
-    assert parts is not None
-    name, number, rest = parts["name"], int(parts["number"] or 0), parts["rest"] or ""
-    place = _PLACES.get(name, len(_CAPTIONS))
-    order = (place, number, rest)
+    name, number, rest = _parts(stem)
+    order = place, *_ = place_among_others(stem)
     if place == len(_CAPTIONS):
         return order, stem.replace("_", " ").capitalize()
     caption, numbered = _CAPTIONS[place][1], f"analysis {number}" if number else ""

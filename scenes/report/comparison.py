@@ -9,7 +9,7 @@ from mpi4py import MPI
 
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
-from hydroelastic.output.tank.quantities import TANK
+from hydroelastic.output.tank.quantities import EXACT
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
@@ -49,7 +49,7 @@ def _section(scene: TankScene | SeaScene, outcome: Outcome) -> tuple[Section, ..
         return found
     if scene.is_open:
         return "There is no comparison with older theories: those of floats do not fit these bodies and analyses."
-    if TANK["exact"].records(outcome.solution):
+    if EXACT.records(outcome.solution):
         return "The modes have an exact solution; how far they are from it is said below their table."
     return (
         "There is no comparison with older theories: they apply to a beam with free ends beside a free surface, and to "

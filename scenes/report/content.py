@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.provenance import SCENE, VERSIONS, read_summary
 from hydroelastic.output.sections import title_of
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.read import Scene
@@ -27,13 +28,14 @@ def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
         folder: of its results, where the pictures are.
     """
     summary = outcome.summary
+    told = read_summary(summary)
     return ReportPage(
         title=title_of(summary),
         kind=kind_of(summary),
-        tolerance=summary["scene"]["accuracy"]["tolerance"],
+        tolerance=told[SCENE]["accuracy"]["tolerance"],
         reasons=outcome.reasons,
         warnings=outcome.warnings,
-        version=summary["versions"]["hydroelastic"],
+        version=told[VERSIONS]["hydroelastic"],
         parts=tuple(_parts(scene, outcome, folder / "images")),
     )
 

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import MEMORY_PEAK, TIMING, VERSIONS, Summary, read_summary
 from hydroelastic.output.sections import Section
+from hydroelastic.scenes.report.families import size_of
 
 
 def cost_sections(summary: Summary) -> Iterator[Section]:
     """Yield tables of the cost of a result; `summary` is the content of ``summary.json``."""
-    timing = summary["timing"]
-    rows = [(stage, f"{seconds:.3f}") for stage, seconds in timing.items()]
-    yield Section(title="Seconds by stage", headings=("stage", "seconds"), rows=[*rows, _sum(timing)])
-    size = [(name.replace("_", " "), _size(value)) for name, value in summary["size"].items()]
-    memory = ("peak memory of all processes, MiB", f"{summary['memory_peak'] / 2**20:.0f}")
+    told = read_summary(summary)
+    rows = [(stage, f"{seconds:.3f}") for stage, seconds in told[TIMING].items()]
+    total = "sum", f"{sum(told[TIMING].values()):.3f}"
+    yield Section(title="Seconds by stage", headings=("stage", "seconds"), rows=[*rows, total])
+    size = [(name.replace("_", " "), _size(value)) for name, value in size_of(summary).values.items()]
+    memory = ("peak memory of all processes, MiB", f"{told[MEMORY_PEAK] / 2**20:.0f}")
     yield Section(title="Size", headings=("quantity", "value"), rows=[*size, memory])
-    yield Section(title="Versions", headings=("package", "version"), rows=list(summary["versions"].items()))
-
-
-def _sum(timing: dict[str, float]) -> tuple[str, str]:
-    return "sum", f"{sum(timing.values()):.3f}"
+    yield Section(title="Versions", headings=("package", "version"), rows=list(told[VERSIONS].items()))
 
 
 def _size(value: object) -> str:

@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.digits import counted
+from hydroelastic.output.level_tank import quantities as level_tank
+from hydroelastic.output.open_water import quantities as water
+from hydroelastic.output.provenance import REASONS, Summary
+from hydroelastic.output.quantities import Quantity
+from hydroelastic.output.reading import Reading
+from hydroelastic.output.roll import quantities as roll
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.report.families import Family, family_of
+from hydroelastic.output.string import quantities as string
+from hydroelastic.output.tank import quantities as tank
+from hydroelastic.output.thread import quantities as thread
+from hydroelastic.scenes.report.families import Family, family_of, reading_of
 
 
 def resolved(summary: Summary) -> Section:
@@ -16,81 +25,82 @@ def resolved(summary: Summary) -> Section:
         summary: content of ``summary.json``.
     """
     lines = _LINES[family_of(summary)]
-    return Section(title="How the answer was found", lines=tuple(lines(summary)))
+    return Section(title="How the answer was found", lines=tuple(lines(reading_of(summary))))
 
 
-def _tank(summary: Summary) -> Iterator[str]:
-    size = summary["size"]
-    half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
-    yield from _modes(summary, f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ.")
+def _tank(summary: Reading) -> Iterator[str]:
+    size, solver = summary[tank.SIZE], summary[tank.SOLVER]
+    half = " in half the tank, for the scene is its own mirror image" if size[tank.HALVES] else ""
+    yield _attempts(summary, solver[tank.ATTEMPTS])
+    yield f"{size[tank.CELLS]} cells of degree {size[tank.DEGREE]}{half}; {size[tank.DOFS]} unknowns of ψ."
+    yield from _confirmed(solver, tank.COUNT_CONFIRMED, tank.LARGEST_RESIDUAL)
 
 
-def _level_tank(summary: Summary) -> Iterator[str]:
-    size, model = summary["size"], summary["solver"]["model"]
+def _level_tank(summary: Reading) -> Iterator[str]:
+    size, solver = summary[level_tank.SIZE], summary[level_tank.SOLVER]
+    model = solver[level_tank.MODEL]
     yield f"{model[:1].upper()}{model[1:]}."
-    poles = f", {size['poles']} poles of the depth" if size["poles"] else ""
-    problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
-    yield from _modes(
-        summary,
-        f"{problems}: degree {size['degree']}, {size['layers']} layers at each edge{poles}; {size['dofs']} unknowns.",
+    yield _attempts(summary, solver[level_tank.ATTEMPTS])
+    poles = f", {size[level_tank.POLES]} poles of the depth" if size[level_tank.POLES] else ""
+    yield (
+        f"{counted(size[level_tank.PROBLEMS], 'problem')}: degree {size[level_tank.DEGREE]}, "
+        f"{size[level_tank.LAYERS]} layers at each edge{poles}; {size[level_tank.DOFS]} unknowns."
     )
+    yield from _confirmed(solver, level_tank.COUNT_CONFIRMED, level_tank.LARGEST_RESIDUAL)
 
 
-def _modes(summary: Summary, size: str) -> Iterator[str]:
-    """How often the modes were solved, the size of the last attempt, and what confirms them."""
-    solver = summary["solver"]
-    attempts = solver["attempts"]
+def _attempts(summary: Reading, attempts: int) -> str:
+    """How often the modes were solved."""
     if attempts == 1:
-        yield (
-            "One attempt: its estimated errors are within the tolerance." if not summary["reasons"] else "One attempt."
-        )
-    else:
-        yield f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
-    yield size
-    if solver["count_confirmed_by_inertia"]:
+        return "One attempt." if summary[REASONS] else "One attempt: its estimated errors are within the tolerance."
+    return f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
+
+
+def _confirmed(solver: Reading, count_confirmed: Quantity, residual: Quantity) -> Iterator[str]:
+    """What confirms the modes."""
+    if solver[count_confirmed]:
         yield "An independent count, by the inertia of the matrices, confirms that no mode is missing."
-    yield f"Largest residual of the modes: {solver['largest_residual']:.1e}."
+    yield f"Largest residual of the modes: {solver.cell(residual)}."
 
 
-def _open_water(summary: Summary) -> Iterator[str]:
-    size = summary["size"]
+def _open_water(summary: Reading) -> Iterator[str]:
+    size = summary[water.SIZE]
     yield (
         "Each analysis starts from the elements that its shortest wave asks for; its answer is judged by its estimated "
         "error, and refined where that comes from."
     )
-    yield f"In the end: {size['cells']} cells of degree {size['degree']}, {size['dofs']} unknowns."
+    yield f"In the end: {size[water.CELLS]} cells of degree {size[water.DEGREE]}, {size[water.DOFS]} unknowns."
 
 
-def _string(summary: Summary) -> Iterator[str]:
-    size = summary["size"]
-    if summary["method"] == "series":
-        yield f"{size['terms']} terms of the series: the rest is a hundredth of the tolerance, or rounding."
+def _string(summary: Reading) -> Iterator[str]:
+    size = summary[string.SIZE]
+    if summary[string.METHOD] == "series":
+        yield f"{size[string.TERMS]} terms of the series: the rest is a hundredth of the tolerance, or rounding."
         return
     yield (
-        f"{size['cells']} elements of degree {size['degree']}, {size['steps']} steps in time: both were refined until "
-        "the estimated errors, away from fronts, kept the tolerance."
+        f"{size[string.CELLS]} elements of degree {size[string.DEGREE]}, {size[string.STEPS]} steps in time: both were "
+        "refined until the estimated errors, away from fronts, kept the tolerance."
     )
 
 
-def _thread(summary: Summary) -> Iterator[str]:
-    size, rest = summary["size"], summary["equilibrium"]
-    if rest["newton_steps"]:
-        meshes = len(rest["newton_steps"])
+def _thread(summary: Reading) -> Iterator[str]:
+    size, steps = summary[thread.SIZE], summary[thread.EQUILIBRIUM][thread.NEWTON_STEPS]
+    if steps:
         yield (
-            f"{meshes} {'mesh' if meshes == 1 else 'meshes'}, each finer than the one before: the difference of the "
-            "last two estimates the error."
+            f"{counted(len(steps), 'mesh')}, each finer than the one before: the difference of the last two estimates "
+            "the error."
         )
-    yield f"{size['cells']} cells of degree {size['degree']}, {size['dofs']} unknowns."
+    yield f"{size[thread.CELLS]} cells of degree {size[thread.DEGREE]}, {size[thread.DOFS]} unknowns."
 
 
-def _roll(summary: Summary) -> Iterator[str]:
-    if summary["ship"]["quadratic_damping"]:
+def _roll(summary: Reading) -> Iterator[str]:
+    if summary[roll.SHIP][roll.QUADRATIC_DAMPING]:
         yield "Integrated at two tolerances: their difference estimates the error."
     else:
         yield "The closed form is exact: its error is that of rounding, and of the field solution of a section if any."
 
 
-_LINES: dict[Family, Callable[[Summary], Iterator[str]]] = {
+_LINES: dict[Family, Callable[[Reading], Iterator[str]]] = {
     "tank": _tank,
     "level tank": _level_tank,
     "open water": _open_water,

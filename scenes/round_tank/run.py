@@ -9,7 +9,7 @@ from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes
 from hydroelastic.output.level_tank.tables import level_tank_cost, level_tank_sections
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.reading import Reading
 from hydroelastic.scenes.level_tank.run import beside_estimates, run_level_tank
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
@@ -17,7 +17,7 @@ from hydroelastic.scenes.round_tank.solve import solve_round_scene
 from hydroelastic.scenes.staged_run import StagedRun
 
 
-def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
+def _sample(solved: SolvedLevelTank, summary: Reading) -> SampledTank:
     from hydroelastic.fem.plan.patches import level_patches
 
     return SampledTank(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from mpi4py import MPI
 from pydantic import ValidationError
@@ -12,12 +10,28 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.run import run_string
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
+
+# fmt: off
+# A table: as many arguments on a line as fit.
+COMPARISON = Group("comparison", "the field solution beside the series, relative to the series", (
+    DISPLACEMENT := Quantity("displacement", "displacement away from fronts, of the largest", "1", shown=".1e"),
+    DISPLACEMENT_ESTIMATE := Quantity("displacement_estimate", "its error by the field solution", "1", shown=".1e"),
+    ROOT_MEAN_SQUARE := Quantity("displacement_root_mean_square", "displacement everywhere, root mean square", "1",
+        shown=".1e"),
+    MODES := Quantity("modes", "frequencies of free motions", "1", shown=".1e"),
+    MODES_ESTIMATE := Quantity("modes_estimate", "their error by the field solution", "1", shown=".1e"),
+    FIELD_SECONDS := Quantity("field_seconds", "time of the field solution", "s", shown=".2f"),
+    SERIES_SECONDS := Quantity("series_seconds", "time of the series", "s", shown=".2f"),
+))
+# fmt: on
 
 
 def compare_string(scene: StringScene, *, report: Report = lambda _message: None) -> Outcome:
@@ -46,9 +60,9 @@ def compare_string(scene: StringScene, *, report: Report = lambda _message: None
     report("series")
     series = solve_series(scene)
     summary = run_string.summarized(as_field, field)
-    summary["comparison"] = compared(field.solution, series)
-    sections = (comparison_section(summary["comparison"]),)
-    return Outcome(solution=field, summary=summary, sections=sections, cost=run_string.cost(summary))
+    differences = compared(field.solution, series)
+    sections, cost = (comparison_section(differences),), run_string.cost(run_string.read(summary))
+    return Outcome(solution=field, summary=summary | {COMPARISON.key: differences}, sections=sections, cost=cost)
 
 
 def _as_field(scene: StringScene) -> StringScene:
@@ -75,32 +89,27 @@ def compared(field: StringSolution, series: StringSolution) -> Summary:
     roots = np.abs(field.free_motions.roots[:count] - series.free_motions.roots[:count]) / np.abs(
         series.free_motions.roots[:count]
     )
-    found: dict[str, Any] = {
-        "displacement": float(difference[away].max(initial=0.0)),
-        "displacement_estimate": field.relative_error,
-        "displacement_root_mean_square": float(np.sqrt(np.mean(difference**2))),
-        "modes": float(roots.max(initial=0.0)),
-        "modes_estimate": field.frequency_error,
-        "field_seconds": sum(field.seconds.values()),
-        "series_seconds": sum(series.seconds.values()),
+    return {
+        DISPLACEMENT.key: float(difference[away].max(initial=0.0)),
+        DISPLACEMENT_ESTIMATE.key: field.relative_error,
+        ROOT_MEAN_SQUARE.key: float(np.sqrt(np.mean(difference**2))),
+        MODES.key: float(roots.max(initial=0.0)),
+        MODES_ESTIMATE.key: field.frequency_error,
+        FIELD_SECONDS.key: sum(field.seconds.values()),
+        SERIES_SECONDS.key: sum(series.seconds.values()),
     }
-    return found
 
 
 def comparison_section(comparison: Summary) -> Section:
     """Return the table of differences; `comparison` is that of `compared`."""
-    rows = [
-        (
-            "displacement away from fronts, of the largest",
-            f"{comparison['displacement']:.1e}",
-            f"{comparison['displacement_estimate']:.1e}",
-        ),
-        ("displacement everywhere, root mean square", f"{comparison['displacement_root_mean_square']:.1e}", ""),
-        ("frequencies of free motions", f"{comparison['modes']:.1e}", f"{comparison['modes_estimate']:.1e}"),
-    ]
+    told = Reading(COMPARISON, comparison)
     return Section(
         title="The field solution beside the series",
         headings=("quantity", "difference", "estimated error of the field solution"),
-        rows=rows,
-        lines=(f"Seconds: {comparison['field_seconds']:.2f} (field), {comparison['series_seconds']:.2f} (series).",),
+        rows=[
+            (DISPLACEMENT.meaning, told.cell(DISPLACEMENT), told.cell(DISPLACEMENT_ESTIMATE)),
+            (ROOT_MEAN_SQUARE.meaning, told.cell(ROOT_MEAN_SQUARE), ""),
+            (MODES.meaning, told.cell(MODES), told.cell(MODES_ESTIMATE)),
+        ],
+        lines=(f"Seconds: {told.cell(FIELD_SECONDS)} (field), {told.cell(SERIES_SECONDS)} (series).",),
     )

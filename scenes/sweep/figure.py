@@ -102,13 +102,14 @@ def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
 
 def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     """The first elastic tone by older theories, where they were asked for."""
+    from hydroelastic.output.tank.quantities import ESTIMATE_OMEGA, ESTIMATES
+
     variables = {one.name: one for one in sweep.variables}
-    if "estimate_omega" not in variables:
+    estimate, omega = ESTIMATES.dimension, ESTIMATE_OMEGA.name_behind(ESTIMATES.name_behind(""))
+    if omega not in variables:
         return
     (axis,) = sweep.solved.grid.axes
-    for number, (name, values) in enumerate(
-        zip(variables["estimate"].values, variables["estimate_omega"].values.T, strict=True)
-    ):
+    for number, (name, values) in enumerate(zip(variables[estimate].values, variables[omega].values.T, strict=True)):
         style = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)]
         colour = COLOURS[number % len(COLOURS)]
         panel.plot(axis.values, values, style, color=colour, linewidth=0.8, label=str(name))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -61,48 +62,61 @@ def _write_rows(file: Path, rows: list[dict[str, Any]]) -> None:
 def sweep_summary(sweep: SweepContents) -> dict[str, Any]:
     """Return the content of ``summary.json``."""
     solved = sweep.solved
-    found = [point.status for point in solved.points]
+    found, followed = [point.status for point in solved.points], followed_modes(solved)
     return {
         "scene": solved.scene.model_dump(mode="json"),
         "status": solved.status,
         "reasons": solved.reasons,
         "vary": {axis.key: axis.values for axis in solved.grid.axes},
         "points": {status: found.count(status) for status in ("ok", "unconverged", "failed")},
-        "followed": followed_summary(solved),
+        "followed": None if followed is None else vars(followed),
         "versions": versions(),
     }
 
 
-def followed_summary(solved: SolvedSweep) -> dict[str, Any] | None:
+@dataclass(frozen=True, kw_only=True)
+class FollowedModes:
+    """How the modes were followed: numbers of points added and of encounters by kind, whether more points are needed,
+    and the least part of a first elastic tone that the modes hold, ``None`` without beams."""
+
+    added_points: int
+    more_needed: bool
+    crossings: int
+    veerings: int
+    unresolved: int
+    least_participation_sum: float | None
+
+
+def followed_modes(solved: SolvedSweep) -> FollowedModes | None:
     """Return how the modes were followed; ``None`` where they were not."""
     if not solved.lines:
         return None
     kinds = [one.kind for line in solved.lines for one in line.encounters]
     sums = [one.participation.sum(axis=1) for line in solved.lines for one in line.followed.modes]
-    return {
-        "added_points": sum(int(line.followed.refined.sum()) for line in solved.lines),
-        "more_needed": any(line.followed.exhausted for line in solved.lines),
-        "crossings": kinds.count("crossing"),
-        "veerings": kinds.count("veering"),
-        "unresolved": kinds.count("unresolved"),
-        "least_participation_sum": min((float(one) for some in sums for one in some), default=None),
-    }
+    return FollowedModes(
+        added_points=sum(int(line.followed.refined.sum()) for line in solved.lines),
+        more_needed=any(line.followed.exhausted for line in solved.lines),
+        crossings=kinds.count("crossing"),
+        veerings=kinds.count("veering"),
+        unresolved=kinds.count("unresolved"),
+        least_participation_sum=min((float(one) for some in sums for one in some), default=None),
+    )
 
 
 def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
     """Return what is said of the followed modes."""
-    found = followed_summary(solved)
+    found = followed_modes(solved)
     if found is None:
         return []
     lines = [
-        f"Modes followed along {solved.grid.axes[0].key}: {found['crossings']} crossings, {found['veerings']} "
-        f"veerings; {found['added_points']} points were added for that."
+        f"Modes followed along {solved.grid.axes[0].key}: {found.crossings} crossings, {found.veerings} "
+        f"veerings; {found.added_points} points were added for that."
     ]
-    if found["least_participation_sum"] is not None:
-        lines.append(f"The modes hold {found['least_participation_sum']:.4f} or more of each first elastic tone.")
-    if found["unresolved"] or found["more_needed"]:
+    if found.least_participation_sum is not None:
+        lines.append(f"The modes hold {found.least_participation_sum:.4f} or more of each first elastic tone.")
+    if found.unresolved or found.more_needed:
         lines.append(
-            f"NOT RESOLVED: {found['unresolved']} encounters of modes, see encounters.csv. Take more values, or allow "
+            f"NOT RESOLVED: {found.unresolved} encounters of modes, see encounters.csv. Take more values, or allow "
             f"more refinements."
         )
     return lines

@@ -22,9 +22,6 @@ from hydroelastic.scenes.words import proposal
 POINT = "point"
 """The dimension along which the points lie; of a variable that has it, it is the first."""
 
-# They tell of a single run, or stand elsewhere in the results of a sweep.
-_LEFT_OUT = frozenset(("scene", "status", "reasons", "timing", "memory_peak", "versions"))
-
 
 def quantities(
     summaries: Sequence[Summary | None], arrays: Sequence[Sequence[Variable] | None], kind: Group
@@ -36,9 +33,8 @@ def quantities(
         arrays: further variables of each point, which are no part of its summary; ``None`` where it failed.
         kind: the declared quantities of this kind of scene.
     """
-    told = [{key: value for key, value in (one or {}).items() if key not in _LEFT_OUT} for one in summaries]
     points = Group(POINT, "the points", kind.parts, dimension=POINT, prefix="")
-    of_summaries = summary_variables({POINT: told}, Group("", "a sweep", (points,)))
+    of_summaries = summary_variables({POINT: list(summaries)}, Group("", "a sweep", (points,)))
     parts = [list(numbered_along(POINT, part, number)) for number, part in enumerate(arrays, 1) if part]
     found = joined(parts, {POINT: range(1, len(arrays) + 1)})
     variables = (replace(one, is_coordinate=False) for one in found)

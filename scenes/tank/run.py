@@ -18,8 +18,8 @@ from hydroelastic.modal.tank_estimates import tone_estimates
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.output.provenance import Summary
-from hydroelastic.output.tank.quantities import TANK
+from hydroelastic.output.reading import Reading
+from hydroelastic.output.tank.quantities import MODE_OMEGA, MODES, TANK
 from hydroelastic.output.tank.tables import compared_sections, mode_columns, tank_cost, tank_sections
 from hydroelastic.output.tank.variables import tank_variables
 from hydroelastic.output.variables import Variable
@@ -43,12 +43,12 @@ class SampledTank:
     Attributes:
         solution: the field solution.
         shapes: mode shapes in SI units; ``None`` except on rank 0.
-        summary: content of ``summary.json``.
+        summary: what is written of them.
     """
 
     solution: TankSolution
     shapes: ModeShapes | None
-    summary: Summary
+    summary: Reading
 
 
 def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:
@@ -85,7 +85,7 @@ def solve_tank_alone(scene: TankScene, comm: MPI.Comm, report: Report, liquids: 
     return EstimatedTank(scene=scene, tank=solution)
 
 
-def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
+def _sample(estimated: EstimatedTank, summary: Reading) -> SampledTank:
     # Without pictures their modules are not imported.
     from hydroelastic.fem.tank.mode_shapes import sample_shapes
 
@@ -96,7 +96,7 @@ def _write(tank: SampledTank, folder: Path) -> None:
     from hydroelastic.scenes.tank.shapes import write_fields
 
     assert tank.shapes is not None
-    write_fields(tank.shapes, [mode["omega"] for mode in tank.summary["modes"]], folder / "fields")
+    write_fields(tank.shapes, [mode[MODE_OMEGA] for mode in tank.summary[MODES]], folder / "fields")
     write_csv(folder / "modes.csv", mode_columns(tank.summary))
 
 
@@ -134,4 +134,4 @@ def compare_tank(scene: TankScene, *, report: Report = lambda _message: None) ->
         UnsolvedError: if the eigen-solver fails.
     """
     outcome = run_tank(scene, report=report)
-    return replace(outcome, sections=tuple(compared_sections(outcome.summary)), notes=True)
+    return replace(outcome, sections=tuple(compared_sections(run_tank.read(outcome.summary))), notes=True)

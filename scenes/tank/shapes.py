@@ -10,7 +10,8 @@ from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.reading import Reading
+from hydroelastic.output.tank import quantities as tank
 from hydroelastic.output.vtu import write_collection, write_vtu
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
@@ -20,23 +21,23 @@ _LOWEST = 2
 _BENDS = 0.005
 
 
-def mode_title(number: int, mode: Summary) -> str:
+def mode_title(number: int, mode: Reading) -> str:
     """Title of a mode's picture."""
-    bending = mode["elastic_energy_fraction"]
-    share = f" ({100 * bending:.0f} % bending)" if bending >= 0.005 else ""
-    return f"Mode {number}: ω = {mode['omega']:.6g} rad/s, {mode['frequency_hz']:.4g} Hz, {mode['kind']}{share}"
+    omega, frequency, bending = mode[tank.MODE_OMEGA], mode[tank.FREQUENCY], mode[tank.BENDING]
+    share = f" ({100 * bending:.0f} % bending)" if bending >= _BENDS else ""
+    return f"Mode {number}: ω = {omega:.6g} rad/s, {frequency:.4g} Hz, {mode[tank.KIND]}{share}"
 
 
-def growing_title(number: int, mode: Summary) -> str:
+def growing_title(number: int, mode: Reading) -> str:
     """Title of a growing mode's picture."""
-    rate = mode["growth_rate"]
-    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s, {mode['kind']}"
+    rate = mode[tank.GROWTH_RATE]
+    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s, {mode[tank.KIND]}"
 
 
-def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
+def pictures(shapes: ModeShapes, summary: Reading) -> list[ModePicture]:
     """One picture for each mode, the growing ones last."""
-    titles = [mode_title(number, mode) for number, mode in enumerate(summary["modes"], 1)]
-    titles += [growing_title(number, mode) for number, mode in enumerate(summary["growing"], 1)]
+    titles = [mode_title(number, mode) for number, mode in enumerate(summary[tank.MODES], 1)]
+    titles += [growing_title(number, mode) for number, mode in enumerate(summary[tank.GROWING], 1)]
     two = len(shapes.depths) > 1
     return [
         ModePicture(
@@ -63,20 +64,20 @@ def mode_names(shapes: ModeShapes) -> list[str]:
     return names + [f"growing_{number + 1:03d}" for number in range(shapes.growing)]
 
 
-def animated_modes(summary: Summary) -> list[int]:
+def animated_modes(summary: Reading) -> list[int]:
     """Places of the lowest two modes, of the lowest mode of each kind, and of the one with the largest part of
     bending."""
-    modes = summary["modes"]
+    modes = summary[tank.MODES]
     chosen = set(range(min(_LOWEST, len(modes))))
-    kinds = [mode["kind"] for mode in modes]
+    kinds = [mode[tank.KIND] for mode in modes]
     chosen |= {kinds.index(kind) for kind in kinds}
-    bending = [mode["elastic_energy_fraction"] for mode in modes]
+    bending = [mode[tank.BENDING] for mode in modes]
     if max(bending, default=0.0) >= _BENDS:
         chosen.add(bending.index(max(bending)))
     return sorted(chosen)
 
 
-def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: PictureOptions, report: Report) -> None:
+def draw_all(shapes: ModeShapes, summary: Reading, folder: Path, options: PictureOptions, report: Report) -> None:
     """Draw every mode, and all of them on one sheet, into a folder, animate some if requested, and report the progress.
 
     Animations are half as wide as pictures, which keeps them small.

@@ -6,6 +6,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.thread.comparison import COMPARISON
 from hydroelastic.output.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.differences import thread_differences
@@ -30,6 +31,7 @@ def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None
     report("estimates")
     estimates = thread_estimates(at_rest, comm)
     summary = run_thread.summarized(at_rest, solution)
-    summary["comparison"] = thread_differences(solution, estimates)
-    sections = tuple(comparison_sections(summary["comparison"]))
-    return Outcome(solution=solution, summary=summary, sections=sections, cost=run_thread.cost(summary), notes=True)
+    differences = thread_differences(solution, estimates)
+    sections, cost = tuple(comparison_sections(differences)), run_thread.cost(run_thread.read(summary))
+    summary |= {COMPARISON.key: differences}
+    return Outcome(solution=solution, summary=summary, sections=sections, cost=cost, notes=True)

@@ -6,11 +6,14 @@ T = Uᵀ(M + M_a)U and the volumes V of the constraints, the modes are those of
     y = λ (T y + Vᵀp),    V y = 0        p: constants of ψ, times ρ
 
 in which the motions without stiffness, and the constants with them, are condensed as by `CondensedKinetics`. Where many
-bodies share the answer, the surfaces may be projected on a basis E, which solves EᵀTE; residuals are those of T.
+bodies share the answer, the surfaces may be projected on a basis E, which solves EᵀTE; residuals are those of T. Bodies
+that differ in stiffness and mass may be solved together: all arrays then have further dimensions in front, as those of
+NumPy's linear algebra, which are left out of the shapes below.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -27,7 +30,7 @@ FEW = 100
 
 @dataclass(frozen=True, kw_only=True)
 class CompletedModes:
-    """Modes with their condensed unknowns, at unit generalized mass; the last dimension is that of the modes.
+    """Modes with their condensed unknowns, at unit generalized mass.
 
     Attributes:
         eigenvalues: λ, shape (modes,).
@@ -44,88 +47,125 @@ class CompletedModes:
     residuals: np.ndarray
 
 
+@dataclass(frozen=True, kw_only=True)
+class DenseSolution:
+    """The lowest modes of one problem.
+
+    Attributes:
+        inverses: 1/λ, descending, of more modes too if they are known.
+        modes: the lowest modes.
+        amplitudes: body part of their ζ without the motions without stiffness, shape (modes, body unknowns).
+        displacements: returns ζ of some of them, shape (n, modes).
+        energies: returns the shares of some in the potential energy: body unknowns one by one, then each surface, shape
+            (shares, modes).
+        iterations: restarts of the eigen-solver.
+        projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
+        cell_errors: returns what `spectral_error.cell_errors` does, shape (modes, cells), from the numbers of modes;
+            ``None`` where that takes their ψ.
+    """
+
+    inverses: np.ndarray
+    modes: CompletedModes
+    amplitudes: np.ndarray
+    displacements: Callable[[slice], np.ndarray]
+    energies: Callable[[slice], np.ndarray]
+    iterations: int = 1
+    projection: np.ndarray | None = None
+    cell_errors: Callable[[list[int]], np.ndarray] | None = None
+
+
 class DenseModes:
     """The problem of a stable pencil with a scaled answer, on one process."""
 
-    def __init__(self, pencil: CoupledPencil, answer: LiquidAnswer, projection: Projection | None = None) -> None:
-        """Scale the unknowns, and project the surfaces if a projection is given."""
+    def __init__(
+        self,
+        pencil: CoupledPencil,
+        answer: LiquidAnswer,
+        projection: Projection | None = None,
+        bodies: tuple[np.ndarray, np.ndarray] | None = None,
+    ) -> None:
+        """Scale the unknowns.
+
+        Args:
+            pencil: the problem.
+            answer: of its liquid.
+            projection: of the surfaces, if they are projected.
+            bodies: stiffness (bodies, unknowns) and mass (bodies, unknowns, unknowns) of many that are solved together,
+                in place of those of the pencil; the same motions of all are without stiffness.
+        """
         self._pencil, self._answer, self._projection = pencil, answer, projection
-        bodies = pencil.body_size
+        size = pencil.body_size
         self._free = pencil.free_rigid
-        stiffness = pencil.body_stiffness
+        stiffness, self._mass = bodies or (pencil.body_stiffness, pencil.body_mass)
         self._scale = np.where(stiffness > 0.0, stiffness, 1.0) ** -0.5
-        of_bodies = pencil.volumes[:, :bodies] * self._scale
+        of_bodies = pencil.volumes[:, :size] * self._scale[..., None, :]
         if projection is None:
             self._columns, self.kinetics = answer.scaled, self._with_bodies(answer.scaled)
             self._root = answer.root
-            self._volumes = self.volumes = np.hstack([of_bodies, pencil.volumes[:, bodies:] @ answer.root])
+            self._volumes = self.volumes = _beside(of_bodies, pencil.volumes[:, size:] @ answer.root)
         else:
             self._columns, self.kinetics = projection.columns, self._with_bodies(projection.kinetics)
             self._root = projection.root
-            self._volumes = np.hstack([of_bodies, projection.volumes])
-            self.volumes = np.hstack([of_bodies, projection.projected_volumes])
+            self._volumes = _beside(of_bodies, projection.volumes)
+            self.volumes = _beside(of_bodies, projection.projected_volumes)
 
     def _with_bodies(self, added_mass: np.ndarray) -> np.ndarray:
         """M + M_a with the unknowns of the bodies scaled."""
-        kinetics, bodies = added_mass.copy(), self._pencil.body_size
-        kinetics[:bodies, :bodies] += self._pencil.body_mass
-        kinetics[:bodies] *= self._scale[:, None]
-        kinetics[:, :bodies] *= self._scale
+        kinetics = np.broadcast_to(added_mass, (*self._scale.shape[:-1], *added_mass.shape)).copy()
+        own = slice(self._pencil.body_size)
+        kinetics[..., own, own] += self._mass
+        kinetics[..., own, :] *= self._scale[..., None]
+        kinetics[..., own] *= self._scale[..., None, :]
         return kinetics
 
     def _momenta(self, motions: np.ndarray) -> np.ndarray:
         """T times motions."""
-        bodies, scale = self._pencil.body_size, self._scale[:, None]
-        own = scale * motions[:bodies]
-        momenta: np.ndarray = self._columns @ np.concatenate([own, motions[bodies:]])
-        momenta[:bodies] = scale * (momenta[:bodies] + self._pencil.body_mass @ own)
+        size, scale = self._pencil.body_size, self._scale[..., None]
+        own = scale * motions[..., :size, :]
+        momenta: np.ndarray = self._columns @ np.concatenate([own, motions[..., size:, :]], axis=-2)
+        momenta[..., :size, :] = scale * (momenta[..., :size, :] + self._mass @ own)
         return momenta
 
     def _whole(self, vectors: np.ndarray) -> np.ndarray:
         """E times vectors."""
         if self._projection is None:
             return vectors
-        bodies = self._pencil.body_size
-        return np.concatenate([vectors[:bodies], self._projection.basis @ vectors[bodies:]])
-
-    @property
-    def is_projected(self) -> bool:
-        """Whether the surfaces are projected on a basis."""
-        return self._projection is not None
+        size = self._pencil.body_size
+        return np.concatenate([vectors[..., :size, :], self._projection.basis @ vectors[..., size:, :]], axis=-2)
 
     @cached_property
     def _condensed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """W and D of the condensed unknowns, and the volumes that stay as orthonormal columns Q = VᵀT."""
         turn, with_rigid = self._pencil.rigid_constraints
         volumes, rigid = turn.T @ self.volumes, len(self._free)
-        follow = np.vstack([self.kinetics[self._free], volumes[:with_rigid]])
-        block = np.zeros((len(follow), len(follow)))
-        block[:, :rigid] = follow[:, self._free]
-        block[:rigid] = block[:, :rigid].T
-        kept = volumes[with_rigid:].T.copy()
-        kept[self._free] = 0.0
+        follow = np.concatenate([self.kinetics[..., self._free, :], volumes[..., :with_rigid, :]], axis=-2)
+        block = np.zeros((*follow.shape[:-1], follow.shape[-2]))
+        block[..., :rigid] = follow[..., self._free]
+        block[..., :rigid, :] = block[..., :rigid].swapaxes(-1, -2)
+        kept = volumes[..., with_rigid:, :].swapaxes(-1, -2).copy()
+        kept[..., self._free, :] = 0.0
         basis, triangle = np.linalg.qr(kept) if kept.size else (kept, np.empty((0, 0)))
-        return follow, 0.5 * (block + block.T), basis, triangle
+        return follow, 0.5 * (block + block.swapaxes(-1, -2)), basis, triangle
 
     def operator(self) -> np.ndarray:
         """Return T with the motions without stiffness condensed, whose largest eigenvalues are 1/λ; their vectors are y
         without the condensed unknowns."""
         follow, block, basis, _ = self._condensed
         operator = self.kinetics.copy()
-        if len(follow):
-            operator -= follow.T @ np.linalg.solve(block, follow)
-            operator[self._free] = 0.0
-            operator[:, self._free] = 0.0
-        if basis.shape[1]:
+        if follow.size:
+            operator -= follow.swapaxes(-1, -2) @ np.linalg.solve(block, follow)
+            operator[..., self._free, :] = 0.0
+            operator[..., self._free] = 0.0
+        if basis.size:
             # Projected on both sides.
             part = operator @ basis
-            part -= 0.5 * basis @ (basis.T @ part)
-            operator -= part @ basis.T + basis @ part.T
+            part -= 0.5 * basis @ (basis.swapaxes(-1, -2) @ part)
+            operator -= part @ basis.swapaxes(-1, -2) + basis @ part.swapaxes(-1, -2)
         return operator
 
     def amplitudes(self, modes: CompletedModes) -> np.ndarray:
         """Return the body part of ζ without the motions without stiffness, shape (modes, body unknowns)."""
-        found: np.ndarray = (self._scale[:, None] * modes.forces[: self._pencil.body_size]).T
+        found: np.ndarray = (self._scale[..., None] * modes.forces[..., : self._pencil.body_size, :]).swapaxes(-1, -2)
         return found
 
     def completed(self, eigenvalues: np.ndarray, vectors: np.ndarray) -> CompletedModes:
@@ -137,47 +177,60 @@ class DenseModes:
         """
         rigid = len(self._free)
         follow, block, basis, triangle = self._condensed
-        forces = vectors * np.sqrt(eigenvalues) / np.linalg.norm(vectors, axis=0)
-        followed = -np.linalg.solve(block, follow @ forces) if len(follow) else np.empty((0, len(eigenvalues)))
+        of_modes = eigenvalues[..., None, :]
+        forces = vectors * np.sqrt(of_modes) / np.linalg.norm(vectors, axis=-2, keepdims=True)
+        none = np.empty((*eigenvalues.shape[:-1], 0, eigenvalues.shape[-1]))
+        followed = -np.linalg.solve(block, follow @ forces) if follow.size else none
         motions = forces.copy()
-        motions[self._free] = followed[:rigid]
+        motions[..., self._free, :] = followed[..., :rigid, :]
         moving = self.kinetics @ motions
-        moving[self._free] = 0.0
-        held = -np.linalg.solve(triangle, basis.T @ moving) if basis.size else np.empty((0, len(eigenvalues)))
+        moving[..., self._free, :] = 0.0
+        held = -np.linalg.solve(triangle, basis.swapaxes(-1, -2) @ moving) if basis.size else none
         turn, _ = self._pencil.rigid_constraints
-        pressures = turn @ np.concatenate([followed[rigid:], held])
-        residuals = self._whole(forces) - eigenvalues * (self._momenta(motions) + self._volumes.T @ pressures)
+        pressures = turn @ np.concatenate([followed[..., rigid:, :], held], axis=-2)
+        residuals = self._whole(forces) - of_modes * (
+            self._momenta(motions) + self._volumes.swapaxes(-1, -2) @ pressures
+        )
         return CompletedModes(
             eigenvalues=eigenvalues,
             forces=forces,
             motions=motions,
             pressures=pressures,
-            residuals=np.linalg.norm(residuals, axis=0) / np.sqrt(eigenvalues),
+            residuals=np.linalg.norm(residuals, axis=-2) / np.sqrt(eigenvalues),
         )
 
     def displacements(self, modes: CompletedModes, some: slice) -> np.ndarray:
         """Return ζ of some modes, shape (n, modes)."""
-        bodies, motions = self._pencil.body_size, modes.motions[:, some]
-        return np.concatenate([self._scale[:, None] * motions[:bodies], self._root @ motions[bodies:]])
+        size, motions = self._pencil.body_size, modes.motions[..., some]
+        return np.concatenate(
+            [self._scale[..., None] * motions[..., :size, :], self._root @ motions[..., size:, :]], axis=-2
+        )
 
     def energies(self, modes: CompletedModes, some: slice) -> np.ndarray:
         """Return the shares of some modes in the potential energy: body unknowns one by one, then each surface, shape
         (shares, modes)."""
         pencil = self._pencil
-        energies = self._whole(modes.forces[:, some]) ** 2 / modes.eigenvalues[some]
+        energies = self._whole(modes.forces[..., some]) ** 2 / modes.eigenvalues[..., None, some]
         stops = np.cumsum([pencil.body_size, *pencil.surface_sizes])
-        return np.vstack(
-            [energies[: pencil.body_size], *(energies[one:two].sum(axis=0) for one, two in pairwise(stops))]
-        )
+        of_surfaces = (energies[..., one:two, :].sum(axis=-2, keepdims=True) for one, two in pairwise(stops))
+        return np.concatenate([energies[..., : pencil.body_size, :], *of_surfaces], axis=-2)
 
-    def potentials(self, modes: CompletedModes, some: slice) -> np.ndarray:
-        """Return ψ of some modes, its constants included, shape (N, modes)."""
-        pencil = self._pencil
-        potentials: np.ndarray = self._answer.potentials @ self.displacements(modes, some)
-        layer_of = pencil.liquid.owned_layer_of
-        for constraint, pressure in zip(pencil.constraints, modes.pressures[:, some], strict=True):
-            potentials[layer_of == constraint.layer] += pressure / constraint.density
-        return potentials
+
+def _beside(of_bodies: np.ndarray, of_surfaces: np.ndarray) -> np.ndarray:
+    """One matrix of rows for bodies, which may be many, and for the surfaces that they share."""
+    shared = np.broadcast_to(of_surfaces, (*of_bodies.shape[:-1], of_surfaces.shape[-1]))
+    return np.concatenate([of_bodies, shared], axis=-1)
+
+
+def dense_potentials(
+    pencil: CoupledPencil, answer: LiquidAnswer, displacements: np.ndarray, pressures: np.ndarray
+) -> np.ndarray:
+    """Return ψ of modes, shape (N, modes), from their ζ (n, modes) and constants (constraints, modes)."""
+    potentials: np.ndarray = answer.potentials @ displacements
+    layer_of = pencil.liquid.owned_layer_of
+    for constraint, pressure in zip(pencil.constraints, pressures, strict=True):
+        potentials[layer_of == constraint.layer] += pressure / constraint.density
+    return potentials
 
 
 def projection_errors(inverses: np.ndarray, residuals: np.ndarray) -> np.ndarray:
@@ -186,8 +239,9 @@ def projection_errors(inverses: np.ndarray, residuals: np.ndarray) -> np.ndarray
 
     The distances are those of computed values, which are as good as exact ones where the bound is small.
     """
-    count = len(residuals)
-    steps = -np.diff(np.concatenate([[np.inf], inverses[: count + 1], [0.0]]))[: count + 1]
-    gaps = np.minimum(steps[:-1], steps[1:]) / inverses[:count]
+    count = residuals.shape[-1]
+    some = inverses[..., : count + 1]
+    steps = -np.diff(some, prepend=np.inf, append=0.0)[..., : count + 1]
+    gaps = np.minimum(steps[..., :-1], steps[..., 1:]) / inverses[..., :count]
     bound: np.ndarray = np.minimum(residuals, residuals**2 / np.maximum(gaps, np.finfo(float).tiny))
     return bound

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics, Operator
-from hydroelastic.fem.dense_modes import FEW, DenseModes, projection_errors
+from hydroelastic.fem.dense_modes import FEW, DenseModes, DenseSolution, dense_potentials
 from hydroelastic.fem.direct import configure_direct
+from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.mode_energies import energy_shares, residual_of
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.shared_modes import solved_together
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
@@ -87,6 +89,7 @@ class ModeSet:
         projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
         bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
+        cell_errors: see `DenseSolution.cell_errors`.
     """
 
     eigenvalues: np.ndarray
@@ -101,6 +104,7 @@ class ModeSet:
     projection: np.ndarray | None = None
     eigenvectors: tuple[PETSc.Vec, ...] = ()
     bounds: np.ndarray | None = None
+    cell_errors: Callable[[list[int]], np.ndarray] | None = None
 
 
 Products = Callable[[Operator], Operator]
@@ -140,12 +144,7 @@ def solve_modes(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if pencil.answer is not None and not len(pencil.unstable):
-        if isinstance(pencil.answer, SharedAnswer):
-            dense = DenseModes(pencil, pencil.answer, pencil.answer.projection(count))
-            found = _dense_modes(pencil, dense, (count, shapes), tolerance)
-            if found.projection is not None and found.projection.max(initial=0.0) <= PROJECTED:
-                return found
-        return _dense_modes(pencil, DenseModes(pencil, pencil.answer), (count, shapes), tolerance)
+        return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance)
     from slepc4py import SLEPc  # slow to import
 
     kinetics = CondensedKinetics(pencil)
@@ -199,25 +198,53 @@ def _visible(inverses: np.ndarray) -> int:
     return count
 
 
-def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int | None], tolerance: float) -> ModeSet:
-    """A number of the lowest modes, and their shapes."""
+def _answered_modes(
+    pencil: CoupledPencil, answer: LiquidAnswer, asked: tuple[int, int | None], tolerance: float
+) -> ModeSet:
+    """A number of the lowest modes, and their shapes, where the answer of the liquid is known."""
     count, shapes = asked
     count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
+    if isinstance(answer, SharedAnswer) and count:
+        shared = answer.known(pencil, count) or solved_together([pencil], answer, count)[0]
+        assert shared.projection is not None
+        if shared.projection[:count].max() <= PROJECTED:
+            return _mode_set(pencil, answer, shared, min(count, _visible(shared.inverses)), shapes)
+    return _mode_set(pencil, answer, *_dense_solution(DenseModes(pencil, answer), count, tolerance), shapes)
+
+
+def _dense_solution(dense: DenseModes, count: int, tolerance: float) -> tuple[DenseSolution, int]:
+    """The whole problem, and the number of modes that are not lost in rounding."""
+    operator = dense.operator()
     inverses, vectors, iterations = (
-        _largest(dense.operator(), count, tolerance) if count else (np.empty(0), np.empty((pencil.size, 0)), 0)
+        _largest(operator, count, tolerance) if count else (np.empty(0), np.empty((len(operator), 0)), 0)
     )
     count = min(count, _visible(inverses)) if count else 0
-    eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
-    found = dense.completed(eigenvalues, vectors)
+    found = dense.completed(1.0 / inverses[:count], vectors[:, :count])
+    return DenseSolution(
+        inverses=inverses,
+        modes=found,
+        amplitudes=dense.amplitudes(found),
+        displacements=partial(dense.displacements, found),
+        energies=partial(dense.energies, found),
+        iterations=iterations,
+    ), count
+
+
+def _mode_set(
+    pencil: CoupledPencil, answer: LiquidAnswer, found: DenseSolution, count: int, shapes: int | None
+) -> ModeSet:
+    """The lowest modes of a solution."""
+    eigenvalues, residuals = found.modes.eigenvalues[:count], found.modes.residuals
 
     @cache
     def shaped(first: int) -> tuple[np.ndarray, np.ndarray]:
         some = slice(first, first + _AT_ONCE)
-        return dense.displacements(found, some), dense.energies(found, some)
+        return found.displacements(some), found.energies(some)
 
     @cache
     def potentials(first: int) -> np.ndarray:
-        return dense.potentials(found, slice(first, first + _AT_ONCE))
+        pressures = found.modes.pressures[:, first : first + _AT_ONCE]
+        return dense_potentials(pencil, answer, shaped(first)[0], pressures)
 
     def completed(number: int) -> Mode:
         place = number % _AT_ONCE
@@ -228,21 +255,22 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int
             values=displacements[:, place],
             displaced=lambda: _filled(pencil.coupling.createVecRight(), displacements[:, place]),
             shaped=lambda: _filled(pencil.coupling.createVecLeft(), potentials(number - place)[:, place]),
-            residual=float(found.residuals[number]),
+            residual=float(residuals[number]),
             body_amplitudes=displacements[: pencil.body_size, place],
             energy=energies[:, place],
         )
 
     return ModeSet(
         eigenvalues=eigenvalues,
-        elastic_amplitudes=dense.amplitudes(found),
+        elastic_amplitudes=found.amplitudes[:count],
         modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=count,
-        iterations=iterations,
+        iterations=found.iterations,
         solves=pencil.size,
-        projection=projection_errors(inverses, found.residuals) if dense.is_projected else None,
+        projection=found.projection[:count] if found.projection is not None else None,
+        cell_errors=found.cell_errors,
     )
 
 

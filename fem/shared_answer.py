@@ -18,10 +18,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydroelastic.fem.liquid_answer import LiquidAnswer
+
+if TYPE_CHECKING:
+    from hydroelastic.fem.dense_modes import DenseSolution
+    from hydroelastic.fem.pencil import CoupledPencil
 
 # Gravity modes that are kept for each mode asked for; those of long waves have λ in proportion to their number. Their
 # number is rounded up, so that few bases are made.
@@ -67,6 +72,7 @@ class SharedAnswer(LiquidAnswer):
     volumes: np.ndarray
     cell_errors: Callable[[np.ndarray], np.ndarray] | None
     _projections: dict[int, Projection] = field(default_factory=dict)
+    _solutions: dict[tuple[bytes, bytes], DenseSolution] = field(default_factory=dict)
 
     @cached_property
     def _gravity(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -98,21 +104,38 @@ class SharedAnswer(LiquidAnswer):
             )
         return self._projections[kept]
 
-    def eliminated(self, eigenvalue: float) -> tuple[int, np.ndarray] | None:
+    def keep(self, pencil: CoupledPencil, solution: DenseSolution) -> None:
+        """Keep a solution until it is asked for."""
+        self._solutions[_bodies_of(pencil)] = solution
+
+    def known(self, pencil: CoupledPencil, count: int) -> DenseSolution | None:
+        """Return the solution that was kept, once, if it has enough modes."""
+        found = self._solutions.pop(_bodies_of(pencil), None)
+        return found if found is not None and len(found.modes.eigenvalues) >= count else None
+
+    def eliminated(self, eigenvalues: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Eliminate the surfaces from K − σ(M + M_a), bordered by the constraints.
 
         Args:
-            eigenvalue: σ.
+            eigenvalues: σ of some problems, shape (problems,).
 
         Returns:
-            The number of negative pivots, and what is left of the bodies, without K − σM, and the constraints, shape
-            (bodies + constraints, bodies + constraints); ``None`` close to a gravity mode.
+            The number of negative pivots; what is left of the bodies, without K − σM, and the constraints, shape
+            (problems, bodies + constraints, bodies + constraints); and whether σ is far enough from gravity modes.
         """
         inverses, _, loads, volumes = self._gravity
-        pivots = 1.0 - eigenvalue * inverses
-        if np.abs(pivots).min(initial=np.inf) < _RESONANT:
-            return None
-        rows = np.vstack([-eigenvalue * loads.T, volumes])
-        left = -(rows / pivots) @ rows.T
-        left[: self.bodies, : self.bodies] -= eigenvalue * self.added_mass[: self.bodies, : self.bodies]
-        return int(np.count_nonzero(pivots < 0.0)), left
+        shifts = eigenvalues[:, None, None]
+        pivots = 1.0 - eigenvalues[:, None] * inverses
+        rows = np.concatenate([-shifts * loads.T, np.broadcast_to(volumes, (len(shifts), *volumes.shape))], axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            left = -(rows / pivots[:, None, :]) @ rows.swapaxes(-1, -2)
+        left[:, : self.bodies, : self.bodies] -= shifts * self.added_mass[: self.bodies, : self.bodies]
+        return (
+            np.count_nonzero(pivots < 0.0, axis=1),
+            left,
+            np.abs(pivots).min(axis=1, initial=np.inf) >= _RESONANT,
+        )
+
+
+def _bodies_of(pencil: CoupledPencil) -> tuple[bytes, bytes]:
+    return pencil.body_stiffness.tobytes(), pencil.body_mass.tobytes()

@@ -33,26 +33,27 @@ def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenval
     for body in bodies:
         last = first + body.size
         parts = body.stiffness * amplitudes[:, first:last] ** 2 / eigenvalues[:, None]
-        errors += _tail(parts[:, _elastic(body.dofs)])
+        errors += omitted(parts[:, elastic_places(body.dofs)])
         first = last
     return errors
 
 
 @lru_cache(maxsize=16)
-def _elastic(dofs: tuple[Dof, ...]) -> list[int]:
+def elastic_places(dofs: tuple[Dof, ...]) -> list[int]:
+    """Return the places of the elastic degrees of freedom."""
     return [number for number, dof in enumerate(dofs) if dof.is_elastic]
 
 
-def _tail(parts: np.ndarray) -> np.ndarray:
-    """Sum beyond the last of some energy parts, shape (modes, shapes)."""
-    count = parts.shape[1]
+def omitted(parts: np.ndarray) -> np.ndarray:
+    """Estimate the sum beyond the last of some energy parts, shape (…, shapes)."""
+    count = parts.shape[-1]
     if count == 0:
-        return np.zeros(len(parts))
+        return np.zeros(parts.shape[:-1])
     # An even number, for shapes of one parity may take no part; more of them where single ones may vanish by chance.
     recent = 2 * max(1, count // 12)
     # Measured: a quarter of the sum over the last quarter is never far above the tail, nor below it while n⁻⁸ has not
     # set in.
     tail: np.ndarray = np.maximum(
-        parts[:, -recent:].mean(axis=1) * count / _ORDER, 0.25 * parts[:, -max(1, count // 4) :].sum(axis=1)
+        parts[..., -recent:].mean(axis=-1) * count / _ORDER, 0.25 * parts[..., -max(1, count // 4) :].sum(axis=-1)
     )
     return 1.2 * tail

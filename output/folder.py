@@ -254,4 +254,4 @@ def _refused(target: str | Path, wrong: str, remedy: str) -> FolderError:
 
 
 def _unwritable(target: str | Path, error: OSError) -> FolderError:
-    return _refused(target, f"it cannot be written ({error.strerror or error})", "Name another folder with --out")
+    return _refused(target, f"it cannot be written ({error.strerror or error})", "Name another folder")

@@ -87,7 +87,7 @@ def spent(summary: Summary, memory: str = "") -> str:
         memory: what is added about memory.
     """
     seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary["timing"].items() if value >= 0.005)
-    return f"; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB{memory}."
+    return f"; seconds: {seconds or 'less than 0.01'}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB{memory}."
 
 
 class Solved(Protocol):

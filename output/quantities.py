@@ -225,16 +225,21 @@ class Group:
         Args:
             record: one record of the group itself. What a mapping lacks is left out.
         """
-        of_mapping = isinstance(record, Mapping)
+        if not isinstance(record, Mapping):
+            return {part.key: _evaluated(part, part.of(record)) for part in self._in_summary}
         return {
-            part.key: _evaluated(part, record)
-            for part in self._in_summary
-            if not of_mapping or not part.is_missing(record)
+            part.key: _evaluated(part, record[part.key] if function is None else function(record))
+            for part, function in self._with_functions
+            if function is not None or part.key in record
         }
 
     @cached_property
     def _in_summary(self) -> tuple[Quantity | Group, ...]:
         return tuple(part for part in self.parts if isinstance(part, Group) or part.in_summary)
+
+    @cached_property
+    def _with_functions(self) -> tuple[tuple[Quantity | Group, Callable[[Any], Any] | None], ...]:
+        return tuple((part, part.record if isinstance(part, Group) else part.value) for part in self._in_summary)
 
     def places(
         self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
@@ -301,8 +306,7 @@ def _as_written(unit: str) -> str:
     return written if "," in written or " and " in written else written.replace(" ", "·")
 
 
-def _evaluated(part: Quantity | Group, record: Any) -> Any:
-    found = part.of(record)
+def _evaluated(part: Quantity | Group, found: Any) -> Any:
     if isinstance(part, Quantity):
         return json_ready(found)
     if found is None:

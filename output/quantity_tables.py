@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from hydroelastic.output.markdown import markdown_table
@@ -23,6 +24,12 @@ def listed(group: Group, values: Mapping[str, Any]) -> list[Row]:
 def headings(group: Group) -> Row:
     """Return the headings of the columns of `columns`."""
     return tuple(quantity.heading for quantity in _printed(group))
+
+
+def without_zeros(group: Group, key: str, entries: Sequence[Mapping[str, Any]]) -> Group:
+    """Return the group, without the quantity of a key where that is zero in all entries: it says nothing there."""
+    said = any(values[key] for values in entries)
+    return group if said else replace(group, parts=tuple(part for part in group.parts if part.key != key))
 
 
 def columns(group: Group, entries: Sequence[Mapping[str, Any]]) -> list[Row]:

@@ -11,6 +11,7 @@ from hydroelastic.output.markdown import markdown_table, markdown_text, read_mar
 from hydroelastic.output.provenance import Summary
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table
 
 Row: TypeAlias = tuple[str, ...]
@@ -49,10 +50,7 @@ def printed_sections(
         notes: whether to print the notes of the tables.
         width: of the text, in characters.
     """
-    # Who prints nothing does without it.
-    from rich.console import Console
-
-    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False, emoji=False)
+    console = text_console(width)
     console.print(title_of(summary), markup=False)
     for number, line in enumerate(status_lines(summary)):
         console.print(f"  - {line}" if number else line, markup=False, style="bold")
@@ -63,7 +61,28 @@ def printed_sections(
         for line in (*section.lines, *(section.notes if notes else ())):
             console.print(line, markup=False)
     console.print(cost, markup=False)
-    return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
+    return text_of(console).rstrip()
+
+
+def text_console(width: int) -> Console:
+    """Return a console that keeps what is printed, for `text_of`.
+
+    Args:
+        width: in characters.
+    """
+    # Who prints nothing does without it.
+    from rich.console import Console
+
+    # In a notebook it would else show each line by itself, and keep nothing.
+    return Console(
+        file=io.StringIO(), width=width, force_jupyter=False, color_system=None, highlight=False, emoji=False
+    )
+
+
+def text_of(console: Console) -> str:
+    """Return what was printed on a console of `text_console`."""
+    text: str = console.file.getvalue()  # type: ignore[attr-defined]
+    return text
 
 
 def markdown_sections(summary: Summary, sections: Iterable[Section], cost: str) -> str:

@@ -16,8 +16,7 @@ from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 # Bounds of dimensionless wavenumbers: waves longer than a million tank lengths are left out.
 _LEAST, _LARGEST = 1e-6, 1e12
-# Stands for zero in logarithms.
-_NOTHING = 1e-9
+_TINY = 1e-300
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,27 +102,24 @@ def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> fl
 
 def _where_reached(rising: Callable[[float], float], wanted: float, bounds: tuple[float, float], step: float) -> float:
     """The first value of a geometric sequence with steps e^step between bounds where a rising function has reached
-    what is wanted; the upper bound where it has not. By false position in logarithms, with the weight of an end that
-    stays halved (Illinois method)."""
+    what is wanted; the upper bound where it has not."""
     low, high = bounds
-    count = round(log(high / low) / step)
 
     def excess(number: int) -> float:
-        return log(max(rising(low * exp(step * number)) / wanted, _NOTHING))
+        return log(max(rising(low * exp(step * number)), _TINY) / wanted)
 
-    below, above = 0, count - 1
-    under, over = excess(below), excess(above)
-    if under >= 0.0 or over < 0.0:
-        return low if under >= 0.0 else low * exp(step * count)
-    was_below = None
+    below, above = 0, round(log(high / low) / step)
+    first, last, side = excess(below), excess(above), 0
+    if first >= 0.0 or last < 0.0:
+        return low if first >= 0.0 else high
+    # The rule of false position on logarithmic scales, in which functions are nearly straight; an end that stays twice
+    # counts half (Illinois).
     while above - below > 1:
-        middle = below + round(under / (under - over) * (above - below))
-        middle = min(max(middle, below + 1), above - 1)
-        found = excess(middle)
-        is_below = found < 0.0
-        if is_below:
-            below, under, over = middle, found, over * (0.5 if was_below else 1.0)
+        between = below + round((above - below) * first / (first - last))
+        number = min(max(between, below + 1), above - 1)
+        value = excess(number)
+        if value < 0.0:
+            below, first, last, side = number, value, last * (0.5 if side < 0 else 1.0), -1
         else:
-            above, over, under = middle, found, under * (0.5 if was_below is False else 1.0)
-        was_below = is_below
+            above, last, first, side = number, value, first * (0.5 if side > 0 else 1.0), 1
     return low * exp(step * above)

@@ -78,7 +78,7 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except SceneError as error:
-            raise _BadInput(str(error)) from error
+            raise _BadInput(error.text(options=True)) from error
         except UnsolvedError as error:
             raise _Unsolved(str(error)) from error
 

@@ -33,7 +33,7 @@ def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path
     file = file_of_scene(scene)
     stem = "standard_input" if file is None else file.stem
     folder = out if out is not None else Path("results") / f"{stem}{suffix}"
-    with folder_errors():
+    with folder_errors("--out"):
         earlier = check_output(folder)
     other = earlier.scene_file(folder) if earlier is not None else None
     if other is None or other == file:

@@ -34,6 +34,7 @@ class Problem:
         value: the value found, in TOML; empty if it has no short form.
         allowed: the values allowed.
         remedy: what to do.
+        argument: whether the key is an argument of a function in Python, and an option of the command line.
     """
 
     wrong: str
@@ -41,10 +42,12 @@ class Problem:
     value: str = ""
     allowed: str = ""
     remedy: str = ""
+    argument: bool = False
 
-    def line(self) -> str:
-        """Return the problem as one line that a terminal shows as it is."""
-        subject = f"{self.key} = {self.value}" if self.value else self.key
+    def line(self, *, options: bool = False) -> str:
+        """Return the problem as one line that a terminal shows as it is; with ``options``, arguments are ``--key``."""
+        key = f"--{self.key}" if options and self.argument else self.key
+        subject = f"{key} = {self.value}" if self.value else key
         parts = [f"{subject}: {self.wrong}" if subject else self.wrong]
         if self.allowed:
             parts.append(f"Allowed: {self.allowed}")
@@ -68,8 +71,16 @@ class SceneError(Exception):
         self.file = file
 
     def __str__(self) -> str:
-        """Return one line for one problem, else a heading and one line each (ten at most)."""
-        lines = [problem.line() for problem in self.problems]
+        """Return the message as Python shows it."""
+        return self.text()
+
+    def text(self, *, options: bool = False) -> str:
+        """Return one line for one problem, else a heading and one line each (ten at most).
+
+        Args:
+            options: whether arguments are named as options of the command line.
+        """
+        lines = [problem.line(options=options) for problem in self.problems]
         file = printable(str(self.file))
         if len(lines) == 1:
             return f"{file}: {lines[0]}" if self.file is not None else lines[0]
@@ -81,8 +92,11 @@ class SceneError(Exception):
 
 
 @contextmanager
-def folder_errors() -> Iterator[None]:
+def folder_errors(option: str = "") -> Iterator[None]:
     """Turn the error of a result folder that cannot be written into a message of the same form as all others.
+
+    Args:
+        option: of the command line that names the folder.
 
     Raises:
         SceneError: if a folder cannot be written within the block.
@@ -91,7 +105,8 @@ def folder_errors() -> Iterator[None]:
         yield
     except FolderError as error:
         key = "" if error.folder is None else f"output folder {error.folder}"
-        raise SceneError(Problem(key=key, wrong=error.wrong, remedy=error.remedy)) from error
+        remedy = f"{error.remedy} ({option})" if option and error.remedy else error.remedy
+        raise SceneError(Problem(key=key, wrong=error.wrong, remedy=remedy)) from None
 
 
 def printable(text: str) -> str:

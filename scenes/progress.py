@@ -1,4 +1,4 @@
-"""The progress line on the terminal."""
+"""The progress line on the terminal, or below the cell of a notebook."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterator
 
 @contextlib.contextmanager
 def progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
-    """Show the scene and the current step on the terminal; nothing where there is no terminal.
+    """Show the scene and the current step on the terminal or in a notebook; nothing where there is neither.
 
     Args:
         title: of the scene.
-        shown: whether to show progress on a terminal.
+        shown: whether to show progress at all.
 
     Yields:
         A function to call with the name of each step.
@@ -28,6 +28,14 @@ def progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
         return Text(f"{message} – {title}", no_wrap=True, overflow="ellipsis")
 
     console = Console(stderr=True)
+    if console.is_jupyter:
+        # The status of rich would need ipywidgets there.
+        from IPython.display import display
+
+        shown_line = display({"text/plain": line("libraries").plain}, raw=True, display_id=True)
+        yield lambda message: shown_line.update({"text/plain": line(message).plain}, raw=True)
+        shown_line.update({"text/plain": line("solved").plain}, raw=True)
+        return
     with console.status(line("libraries")) as status:
         console.show_cursor(True)  # A signal that ends the process would leave the cursor hidden.
         yield lambda message: status.update(line(message))

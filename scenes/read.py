@@ -120,7 +120,7 @@ def _proposed_scene(path: Path) -> str:
         if with_ending.is_file():
             return f'Did you mean "{with_ending}"?'
     names = [file.stem for file in SHIPPED_FOLDER.glob("*.toml")]
-    return proposal(path.stem, names) or f"See the shipped scenes with `{PROGRAM} list`"
+    return proposal(path.stem, names) or f"See the shipped scenes with `{PROGRAM} list` or he.shipped_scenes()"
 
 
 def read_scene(
@@ -174,7 +174,7 @@ class SceneSource:
         try:
             scene = model.model_validate(document, context=context)
         except ValidationError as error:
-            raise scene_error(error, model, file=label) from error
+            raise scene_error(error, model, file=label) from None
         return _with_mesh_beside(scene, self.file) if self.file is not None and isinstance(scene, TankScene) else scene
 
 

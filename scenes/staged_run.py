@@ -106,23 +106,21 @@ class StagedRun(Generic[_Scene, _Solution]):
             return outcome
         return self.written(outcome, out, scene_file=scene_file, images=images, page=page, report=report)
 
-    def solved(
-        self,
-        scene: _Scene,
-        *,
-        solve: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None,
-        tables: bool = True,
-        import_seconds: float = 0.0,
-        report: Report = lambda _message: None,
+    def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
+        """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
+        return self.outcome(scene, self.solve(scene, MPI.COMM_WORLD, report), import_seconds=import_seconds)
+
+    def outcome(
+        self, scene: _Scene, solution: _Solution, *, tables: bool = True, import_seconds: float = 0.0
     ) -> Outcome:
-        """Solve a scene; write nothing (collective). The other arguments and errors are those of a call.
+        """Return the outcome of a solution (collective).
 
         Args:
-            solve: in place of that of the kind of scene, for example without estimates.
+            scene: the scene.
+            solution: of it.
             tables: whether the tables are made, without which nothing can be printed or written.
+            import_seconds: as for a call.
         """
-        comm = MPI.COMM_WORLD
-        solution = (solve or self.solve)(scene, comm, report)
         summary = self.summarized(scene, solution, import_seconds)
         sections = tuple(self.sections(solution, summary)) if tables else ()
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))

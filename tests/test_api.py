@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -180,6 +181,15 @@ def test_notebooks_show_tables_that_need_nothing_else(solved: tuple[str, he.Resu
     assert all(section.title in html.replace("&#39;", "'").replace("&amp;", "&") for section in result.sections)
 
 
+def test_printing_in_a_notebook_gives_the_same_text(
+    solved: tuple[str, he.Result, Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, result, _ = solved
+    text = str(result)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    assert str(result) == text
+
+
 def test_texts_in_notebooks_are_escaped() -> None:
     result = he.solve(he.read("swell", {"title": "<b>a & b"}))
     assert "<h3>&lt;b&gt;a &amp; b</h3>" in result._repr_html_()
@@ -248,6 +258,22 @@ def test_scenes_are_made_of_keywords_alone() -> None:
             'this is a tank in three dimensions, and a TankScene is per metre of width. Make it with he.read({"kind"',
         ),
         (lambda: he.sweep("aquarium", ["body.1.start"]), "vary = ['body.1.start']: it is not a dictionary"),
+        (lambda: he.sweep("swell", {"roll.damping_ratio": []}), 'vary = "roll.damping_ratio": there is no value. For'),
+        (lambda: he.sweep("swell", {}), 'vary: nothing is varied. For example {"body.1.start"'),
+        (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}, jobs=0), "jobs = 0: it is too small. Allowed: 1 or"),
+        (lambda: he.sweep("swell", {"roll.damping_ratio": [0.2]}).plot("roll"), 'show = "roll": there is no such quan'),
+        (
+            lambda: he.solve("swell").save("/proc/swell"),
+            "it cannot be written (No such file or directory). Name another",
+        ),
+        (
+            lambda: setattr(he.read("swell"), "title", "Mine"),
+            'title = "Mine": scenes cannot be changed. Make a changed',
+        ),
+        (
+            lambda: setattr(he.read("swell").roll, "damping_ratio", 0.3),
+            "damping_ratio = 0.3: scenes cannot be changed.",
+        ),
         (lambda: he.solve("swell").save("swell", images="png"), "images = 'png': it is no option. Allowed: he.Pic"),
         (
             lambda: he.load("nowhere"),
@@ -259,6 +285,13 @@ def test_errors_name_what_is_wrong_and_what_to_do(make: Any, said: str) -> None:
     with pytest.raises(he.SceneError) as caught:
         make()
     assert said in str(caught.value)
+    assert "--" not in str(caught.value)
+
+
+def test_notebooks_complete_the_keys_of_scenes_that_were_not_used_before() -> None:
+    code = "import inspect, hydroelastic as he; print(*inspect.signature(he.ThreadScene).parameters)"
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ended.stdout.split() == [*he.ThreadScene.model_fields]
 
 
 def test_the_current_step_is_shown_if_asked(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -274,6 +307,23 @@ def test_the_current_step_is_shown_if_asked(monkeypatch: pytest.MonkeyPatch) -> 
     assert not seen
     he.solve(scene, report=True)
     assert any(step.startswith("attempt 1") and step.endswith(str(scene.title)) for step in seen)
+
+
+def test_a_notebook_shows_the_current_step_without_ipywidgets(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[str] = []
+
+    class Shown:
+        def update(self, data: dict[str, str], *, raw: bool) -> None:
+            seen.append(data["text/plain"])
+
+    fake = ModuleType("IPython.display")
+    fake.display = lambda data, *, raw, display_id: Shown()  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "IPython", ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", fake)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    he.solve("swell", report=True)
+    assert seen[-1] == f"solved – {he.read('swell').title}"
+    assert len(seen) > 1
 
 
 def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None:

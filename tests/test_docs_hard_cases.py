@@ -15,7 +15,7 @@ def test_each_row_names_a_test(system: str) -> None:
     section = PAGE.split(f"\n## {system}\n")[1].split("\n## ")[0]
     if system == "Beams in tanks":
         # One file has all of them, case by case.
-        assert "| cases: `test_hard_cases.py` |" in section
+        assert "| cases of `test_hard_cases.py` |" in section
         return
     rows = [line for line in section.splitlines() if line.startswith("| ") and not line.startswith("| case ")]
     assert len(rows) >= 7

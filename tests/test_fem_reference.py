@@ -17,8 +17,8 @@ from hydroelastic.fem.added_mass import body_added_mass
 from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.fem.liquid_matrices import surface_mass_matrix
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.fem.tank import infinite_frequency
 from hydroelastic.fem.tank.infinite_frequency import infinite_frequency_limit
+from hydroelastic.fem.tank.liquids import Liquids
 from hydroelastic.fem.tank.resolution import infinite_frequency_resolution
 from hydroelastic.modal.liquid.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.tank_estimates import floating_beam
@@ -122,7 +122,7 @@ def test_the_limit_of_one_beam_needs_no_mesh(tanks: Any, monkeypatch: pytest.Mon
     tank = physical_tank(tanks.scene(tanks.beam(start=1.0, hydrostatic=hydrostatic))).scaled()
     first = infinite_frequency_resolution(tank, 1e-6, expected_tones(tank))
     (released,) = infinite_frequency_limit(MPI.COMM_WORLD, tank, first, 1e-6, Stopwatch(), half=False).tones
-    monkeypatch.setattr(infinite_frequency, "released_modes", lambda *_: None)
+    monkeypatch.setattr(Liquids, "released", lambda *_: None)
     (meshed,) = infinite_frequency_limit(MPI.COMM_WORLD, tank, first, 1e-6, Stopwatch(), half=False).tones
     assert released is not None
     assert meshed is not None

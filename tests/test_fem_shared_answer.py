@@ -19,10 +19,13 @@ from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.shared_answer import SharedAnswer
+from hydroelastic.fem.shared_modes import CellErrors
 from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.tank import solve, together
 from hydroelastic.fem.tank.field_solution import PartPencils
 from hydroelastic.fem.tank.liquids import SharedLiquids
 from hydroelastic.fem.tank.solve import shared_liquids, solve_tank
+from hydroelastic.fem.tank.together import attempt_together
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.physical import physical_tank
 
@@ -130,3 +133,51 @@ def test_a_tank_of_the_sample_is_solved_once_and_is_its_point(tanks: Tanks, liqu
     assert again is not known
     assert again.modes.eigenvalues == pytest.approx(known.modes.eigenvalues, rel=1e-12)
     assert again.relative_errors == pytest.approx(known.relative_errors, rel=1e-2, nan_ok=True)
+
+
+def test_tanks_that_are_attempted_together_are_those_attempted_alone(
+    tanks: Tanks, liquids: SharedLiquids, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Some have more modes below their tone than others, and some no hydrostatic restoring; the order is not theirs.
+    given = [
+        physical_tank(
+            tanks.scene(
+                tanks.beam(flexural_rigidity=rigidity, start=3.0, hydrostatic=hydrostatic), modes=4, tolerance=TOLERANCE
+            )
+        )
+        for rigidity, hydrostatic in ((2e4, True), (500.0, True), (4e3, False), (1e3, False), (9e3, True))
+    ]
+    alone = [solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids) for tank in given]
+    attempt_together(liquids, given, tolerance=TOLERANCE, modes=4)
+    begun = list(liquids.begun.values())
+    assert all(attempt.field is not None and attempt.counted for attempt in begun)
+    # They are gone on with: nothing is solved, counted or estimated again.
+    for name in ("solve_field", "count_is_confirmed"):
+        monkeypatch.setattr(solve, name, None)
+    monkeypatch.setattr(CellErrors, "estimate_together", staticmethod(lambda _asked: None))
+    for tank, expected in zip(given, alone, strict=True):
+        found = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids)
+        assert found.modes.eigenvalues == pytest.approx(expected.modes.eigenvalues, rel=1e-12)
+        # Sums in single precision, in another order.
+        assert found.relative_errors == pytest.approx(expected.relative_errors, rel=1e-4, nan_ok=True)
+        assert [one.pressure_release for one in found.tones] == pytest.approx(
+            [one.pressure_release for one in expected.tones], rel=1e-13
+        )
+        assert found.reasons == expected.reasons
+    assert not liquids.begun
+
+
+def test_where_one_tank_cannot_be_attempted_each_is_attempted_alone(
+    tanks: Tanks, liquids: SharedLiquids, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise np.linalg.LinAlgError
+
+    tank = tank_of(tanks, 2e3, 3.0)
+    expected = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids)
+    with monkeypatch.context() as patched:
+        patched.setattr(together, "solved_together", fail)
+        attempt_together(liquids, [tank], tolerance=TOLERANCE, modes=4)
+    assert not liquids.begun
+    found = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids)
+    assert np.array_equal(found.modes.eigenvalues, expected.modes.eigenvalues)

@@ -90,8 +90,8 @@ def test_options_without_effect_are_said_and_the_run_goes_on(tmp_path: Path) -> 
     result = invoke("run", "swell", "--quiet", "--out", str(tmp_path / "out"), "--image-width", "800", "--animate")
     assert result.exit_code == 0
     assert result.stderr.splitlines() == [
-        "Warning: a width of rendered pictures has no effect: this scene has none, only curves, which --dpi and "
-        "--image-scale size",
+        "Warning: a width of rendered pictures has no effect: this scene has none, only curves, which dpi and "
+        "scale (--dpi, --image-scale) size",
         "Warning: an animation has no effect: nothing of this scene can be animated",
     ]
     assert (tmp_path / "out" / "images" / "roll.png").is_file()
@@ -104,7 +104,7 @@ def test_a_tank_has_no_curves_but_heeds_the_width(tmp_path: Path) -> None:
         pytest.skip("nothing renders here")
     assert outcome.warnings == (
         "a resolution of curves has no effect: this scene has only rendered pictures, which are PNG files as wide as "
-        "--image-width says",
+        "width (--image-width) says",
     )
     for name in ("mode_001", "overview"):
         with Image.open(tmp_path / "out" / "images" / f"{name}.png") as picture:

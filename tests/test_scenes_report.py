@@ -93,7 +93,7 @@ def test_the_answer_is_that_of_the_tables() -> None:
     first = summary["first_elastic"]
     # Digits beyond the estimated error are not shown.
     assert rows["ω of mode 1 (sloshing), rad/s"] == pytest.approx(summary["modes"][0]["omega"], rel=1e-6)
-    name = f"ω of the first mode of beam 1, mode {first['index']}, rad/s"
+    name = f"ω of the first elastic tone of beam 1, mode {first['index']}, rad/s"
     assert rows[name] == pytest.approx(first["omega"], rel=1e-6)
 
 

@@ -262,8 +262,8 @@ def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(
     journal.write_bytes(journal.read_bytes()[:-200])
     LAST.clear()
     solved = []
-    alone = workers.solve_point
-    monkeypatch.setattr(workers, "solve_point", lambda *given: solved.append(given) or alone(*given))
+    alone = workers.solve_points
+    monkeypatch.setattr(workers, "solve_points", lambda *given: solved.extend(given[0]) or alone(*given))
     assert invoke(*arguments).exit_code == 0
     assert len(solved) == 1
     assert {name: (folder / name).read_bytes() for name in files} == whole
@@ -298,7 +298,7 @@ def read_dataset_bytes(folder: Path) -> dict[str, bytes]:
     [
         (("--vary", "body.1.strat=0:6:3"), 'Did you mean "start"?'),
         (("--vary", "body.2.start=0:6:3"), '"2" is not an entry of the list'),
-        (("--vary", "body.1.start"), "it is not of the form KEY=start:stop:number"),
+        (("--vary", "body.1.start"), '--vary = "body.1.start": it is not of the form KEY=start:stop:number'),
         (("--vary", "body.1.start=0:6"), "a range is start:stop:number"),
         (("--vary", "body.1.start=0:x:3"), '"x" is not a finite number'),
         (("--vary", "body.1.start=0:6:0"), 'the number of values, "0", is not a whole number from 1'),
@@ -306,11 +306,12 @@ def read_dataset_bytes(folder: Path) -> dict[str, bytes]:
         (("--vary", "body.1.start=1,,2"), "an entry is empty"),
         (("--vary", "body.1.start=1", "--vary", "body.1.start=2"), "the key stands twice"),
         (("--vary", "body.1.start=1,2", "--show", "first_elastic_omga"), 'Did you mean "first_elastic_omega"?'),
-        (("--vary", "body.1.start=1,2", "--show", "kind_1"), "it holds no numbers"),
+        (("--vary", "body.1.start=1,2", "--show", "kind_1"), '--show = "kind_1": it holds no numbers'),
+        (("--vary", "body.1.start=1,2", "--out", "/proc/sweep"), "Name another folder (--out)."),
     ],
 )
 def test_bad_input_is_one_clear_message(folder: Path, arguments: tuple[str, ...], said: str) -> None:
-    found = invoke("scene.toml", *arguments, "--out", str(folder))
+    found = invoke("scene.toml", "--out", str(folder), *arguments)
     assert (found.exit_code, found.stderr.count("\n")) == (2, 1)
     assert said in found.stderr
 

@@ -12,7 +12,9 @@ from open_tables import CIRCLE, arbitrary_solution, open_scene
 from hydroelastic.fem.open_water.results import DecayTable
 from hydroelastic.output.digits import beyond_error
 from hydroelastic.output.open_water.tables import MOST_ROWS, open_sections
+from hydroelastic.output.quantity_tables import headings, without_zeros
 from hydroelastic.output.sections import Section
+from hydroelastic.output.tank.quantities import MODES
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -120,3 +122,9 @@ def test_as_many_overdamped_motions_are_shown_as_modes_were_asked() -> None:
     assert [row[0] for row in section.rows] == ["1", "2", "–", "–"]
     assert f"{len(modes['aperiodic'])} motions" in section.lines[0]
     assert "the 2 slowest are shown" in section.lines[0]
+
+
+def test_tables_of_modes_without_bending_have_no_column_of_it() -> None:
+    key = "elastic_energy_fraction"
+    assert "bending energy" in headings(without_zeros(MODES, key, [{key: 0.0}, {key: 1e-9}]))
+    assert "bending energy" not in headings(without_zeros(MODES, key, [{key: 0.0}]))

@@ -73,7 +73,7 @@ def _solved(physical: Tank, count: int, resolution: Resolution, *, half: bool) -
     field = solve_field(mesh, tank, resolution, count, Stopwatch(), half=half)
     indices = list(range(len(field.modes.eigenvalues)))
     modes = [field.modes.completed(index) for index in indices]
-    errors = frequency_errors(field, modes, field.parts_of(indices), resolution, tank).total
+    errors = frequency_errors(field, modes, [field.origins[index] for index in indices], resolution, tank).total
     dry_modes = f", {sum(resolution.shapes)} dry modes" if resolution.shapes else ""
     return Reference(
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",

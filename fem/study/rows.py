@@ -52,7 +52,9 @@ def mesh_row(
             with watch.stage("errors"):
                 indices = list(range(len(field.modes.eigenvalues)))
                 modes = [field.modes.completed(index) for index in indices]
-                causes = frequency_errors(field, modes, field.parts_of(indices), resolution, studied.tank)
+                causes = frequency_errors(
+                    field, modes, [field.origins[index] for index in indices], resolution, studied.tank
+                )
                 estimate = float(causes.total.max())
     omega = np.sqrt(field.modes.eigenvalues) * studied.physical.units.frequency
     if len(omega) < min(studied.modes, len(studied.reference.omega)):

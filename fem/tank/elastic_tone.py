@@ -8,6 +8,7 @@ surface, is always a single mode.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Protocol
@@ -115,33 +116,40 @@ def _reaches_past(modes: Amplitudes, parts: np.ndarray, tone: float | None) -> b
     return bool(past and parts.sum() > 0.5)
 
 
-def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> str:
-    """Return what has most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll",
-    "elastic"), or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
+def mode_kinds(modes: Sequence[Mode], bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> tuple[str, ...]:
+    """Return what has most of the potential energy of each mode: a motion of the bodies ("heave", "pitch", "sway",
+    "roll", "elastic"), or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
     """
-    first = sum(body.size for body in bodies)
-    shares = {"sloshing": 0.0}
-    for surface, share in zip(surfaces, mode.energy[first:], strict=True):
-        name = "interface wave" if surface.above is not None else "surface wave" if surface.below else "sloshing"
-        shares[name] = float(share)
-    position = 0
-    for body in bodies:
-        for kind, places in _places_by_kind(body.dofs).items():
-            shares[kind] = shares.get(kind, 0.0) + float(mode.energy[position:][places].sum())
-        position += body.size
-    return max(shares, key=lambda kind: shares[kind])
+    places = _places_by_kind(
+        tuple(body.dofs for body in bodies), tuple((surface.above, surface.below) for surface in surfaces)
+    )
+    energies = np.array([mode.energy for mode in modes]).reshape(len(modes), sum(map(len, places.values())))
+    shares = np.array([energies[:, own].sum(axis=1) for own in places.values()])
+    names = tuple(places)
+    return tuple(names[place] for place in shares.argmax(axis=0))
 
 
 @lru_cache(maxsize=64)
-def _places_by_kind(dofs: tuple[Dof, ...]) -> dict[str, list[int]]:
-    kinds = [dof.kind for dof in dofs]
-    return {kind: [place for place, own in enumerate(kinds) if own == kind] for kind in dict.fromkeys(kinds)}
+def _places_by_kind(
+    dofs: tuple[tuple[Dof, ...], ...], surfaces: tuple[tuple[int | None, int], ...]
+) -> dict[str, list[int]]:
+    """Where each kind has its shares in the potential energy; of two equal ones the first counts."""
+    places: dict[str, list[int]] = {"sloshing": []}
+    first = sum(map(len, dofs))
+    for place, (above, below) in enumerate(surfaces, first):
+        name = "interface wave" if above is not None else "surface wave" if below else "sloshing"
+        places.setdefault(name, []).append(place)
+    for place, dof in enumerate(dof for own in dofs for dof in own):
+        places.setdefault(dof.kind, []).append(place)
+    return places
 
 
-def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
-    """Return the strain energy of bending over the total potential energy."""
+def bending_fractions(modes: Sequence[Mode], bodies: tuple[Body, ...]) -> np.ndarray:
+    """Return the strain energy of bending over the total potential energy, shape (modes,)."""
     bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
-    return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)
+    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), len(bending))
+    fractions: np.ndarray = amplitudes**2 @ bending / np.array([mode.eigenvalue for mode in modes])
+    return fractions
 
 
 def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:

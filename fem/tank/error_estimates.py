@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from math import ceil, log
@@ -14,11 +15,9 @@ from petsc4py import PETSc
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import Mode
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.fem.tank.field_solution import FieldSolution
+from hydroelastic.fem.tank.field_solution import FieldSolution, Origin, Part
 from hydroelastic.fem.tank.mesh import tip_points
 from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
@@ -78,7 +77,7 @@ def joined_errors(errors: list[FrequencyErrors], reduced: float = 0.0) -> Freque
 def frequency_errors(
     solution: FieldSolution,
     modes: list[Mode],
-    parts: list[int],
+    origins: Sequence[Origin],
     resolution: Resolution,
     tank: Tank,
     *,
@@ -89,7 +88,7 @@ def frequency_errors(
     Args:
         solution: the modes at one resolution.
         modes: the modes, with their ψ.
-        parts: index of the part of the solution that each mode belongs to.
+        origins: of each of them.
         resolution: resolution of the solution.
         tank: the dimensionless tank.
         infinite_frequency: whether the solution is that of the infinite-frequency limit.
@@ -97,8 +96,8 @@ def frequency_errors(
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     at_tips = _cells_at_tips(solution.mesh, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency)
     for number, part in enumerate(solution.parts):
-        own = [place for place, owner in enumerate(parts) if owner == number]
-        cells = _cell_errors(part.pencil, [modes[place] for place in own])
+        own = [place for place, (owner, _) in enumerate(origins) if owner == number]
+        cells = _cell_errors(part, [modes[place] for place in own], [origins[place][1] for place in own])
         liquid[own], tips[own] = _away_and_at(at_tips, cells, solution.mesh.mesh.comm)
         projection = part.modes.projection
         if projection is not None:
@@ -117,11 +116,11 @@ def frequency_errors(
     )
 
 
-def _cell_errors(pencil: CoupledPencil, modes: list[Mode]) -> np.ndarray:
+def _cell_errors(part: Part, modes: list[Mode], numbers: list[int]) -> np.ndarray:
     """See `cell_errors` (collective)."""
-    if modes and isinstance(pencil.answer, SharedAnswer) and pencil.answer.cell_errors is not None:
-        return pencil.answer.cell_errors(np.column_stack([mode.values for mode in modes]))
-    return cell_errors(pencil.liquid, [mode.potential for mode in modes])
+    if modes and part.modes.cell_errors is not None:
+        return part.modes.cell_errors(numbers)
+    return cell_errors(part.pencil.liquid, [mode.potential for mode in modes])
 
 
 def _cells_at_tips(

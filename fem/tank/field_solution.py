@@ -5,10 +5,10 @@ Modes of the halves are sorted into one ascending list, with the amplitudes of t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,6 +30,10 @@ from hydroelastic.physics.tank import Tank
 
 PartPencils = dict[Parity | None, CoupledPencil]
 """The eigenproblems of a scene by the symmetry of their modes; ``None`` is all of them, on the whole tank."""
+
+
+Origin = tuple[int, int]
+"""Index of the part of a mode, and its index among the modes of that part."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,20 +60,16 @@ class FieldSolution:
         parts: the eigenproblems.
         bodies: the bodies of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
-        origins: index of the part, and index in that part, of each mode.
-        growing_parts: index of the part of each growing mode.
+        origins: of each mode.
+        growing_origins: of each growing mode.
     """
 
     mesh: TankMesh
     parts: tuple[Part, ...]
     bodies: tuple[Body, ...]
     modes: ModeSet
-    origins: tuple[tuple[int, int], ...]
-    growing_parts: tuple[int, ...] = ()
-
-    def parts_of(self, indices: list[int]) -> list[int]:
-        """Return the index of the part of each of some modes."""
-        return [self.origins[index][0] for index in indices]
+    origins: tuple[Origin, ...]
+    growing_origins: tuple[Origin, ...] = ()
 
     @property
     def dofs(self) -> int:
@@ -168,10 +168,15 @@ def solve_parts(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], pencils: Pa
     return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
 
 
+def share_of_modes(parts: int, count: int) -> int:
+    """Return the number of modes that each of some parts is solved for first, if some are asked for of all."""
+    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
+    return count if parts == 1 else count // 2 + 2
+
+
 def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
     """Solve each part for its share of the modes, and for more where the shares are not enough."""
-    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
-    shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
+    shares = [share_of_modes(len(pencils), count)] * len(pencils)
     parts = [
         Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
         for (parity, pencil), share in zip(pencils.items(), shares, strict=True)
@@ -207,14 +212,13 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
     bodies = whole_bodies(tank, shapes)
-    extensions = [extension(tank, bodies, part.parity) for part in parts]
-    shares = [_shares(one) for one in extensions]
-    of_parts = [part.modes.elastic_amplitudes @ one.T for part, one in zip(parts, extensions, strict=True)]
+    extensions = [extension(tank, bodies, part.parity, len(part.pencil.surfaces)) for part in parts]
+    of_parts = [part.modes.elastic_amplitudes @ one.amplitudes.T for part, one in zip(parts, extensions, strict=True)]
     amplitudes = [of_parts[number][index] for number, index in origins]
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
-        return _extended(parts[number].modes.completed(index), extensions[number], shares[number])
+        return _extended(parts[number].modes.completed(index), extensions[number])
 
     return FieldSolution(
         mesh=mesh,
@@ -230,47 +234,63 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
             growing=tuple(
-                _extended(mode, matrix, share)
-                for part, matrix, share in zip(parts, extensions, shares, strict=True)
-                for mode in part.modes.growing
+                _extended(mode, one) for part, one in zip(parts, extensions, strict=True) for mode in part.modes.growing
             ),
         ),
         origins=origins,
-        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
+        growing_origins=tuple(
+            (number, place) for number, part in enumerate(parts) for place in range(len(part.modes.growing))
+        ),
     )
 
 
-def _shares(extension: np.ndarray) -> np.ndarray:
-    """Parts of the energy of each unknown of a part in those of the whole tank: like the squares of their
-    amplitudes."""
-    squares: np.ndarray = extension**2
-    return squares / squares.sum(axis=0)
-
-
-def _extended(mode: Mode, extension: np.ndarray, shares: np.ndarray) -> Mode:
+def _extended(mode: Mode, extension: Extension) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
-    own = extension.shape[1]
-    return replace(
-        mode,
-        body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.concatenate([shares @ mode.energy[:own], mode.energy[own:]]),
+    return Mode(
+        eigenvalue=mode.eigenvalue,
+        values=mode.values,
+        displaced=mode.displaced,
+        shaped=mode.shaped,
+        residual=mode.residual,
+        body_amplitudes=extension.amplitudes @ mode.body_amplitudes,
+        energy=extension.energies @ mode.energy,
     )
 
 
-def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
-    """Return the matrix from the body unknowns of a part to those of the whole tank, each at unit generalized mass,
-    shape (unknowns of the whole tank, unknowns of the part)."""
+class Extension(NamedTuple):
+    """How the unknowns of a part become those of the whole tank.
+
+    Attributes:
+        amplitudes: matrix from the body unknowns of the part, each at unit generalized mass, shape (unknowns of the
+            whole tank, unknowns of the part).
+        energies: from shares in the potential energy, of body unknowns one by one and then of each surface.
+    """
+
+    amplitudes: np.ndarray
+    energies: np.ndarray
+
+
+def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None, surfaces: int = 0) -> Extension:
+    """Return how the unknowns of a part become those of the whole tank.
+
+    Args:
+        tank: the dimensionless tank.
+        bodies: of the whole tank.
+        parity: of the part; ``None`` is the whole tank.
+        surfaces: number of moving surfaces of the liquids.
+    """
     if parity is None:
-        return np.eye(sum(body.size for body in bodies))
+        size = sum(body.size for body in bodies)
+        return Extension(np.eye(size), np.eye(size + surfaces))
     twins = tuple((body, twin_of(tank, body)) for body in left_bodies(tank))
-    return _extension(tuple(body.parities for body in bodies), twins, parity)
+    return _extension(tuple(body.parities for body in bodies), twins, parity, surfaces)
 
 
 @lru_cache(maxsize=64)
 def _extension(
-    shapes: tuple[tuple[Parity, ...], ...], twins: tuple[tuple[int, int], ...], parity: Parity
-) -> np.ndarray:
+    shapes: tuple[tuple[Parity, ...], ...], twins: tuple[tuple[int, int], ...], parity: Parity, surfaces: int
+) -> Extension:
     offsets = np.cumsum([0, *map(len, shapes)])
     columns = []
     for body, twin in twins:
@@ -283,23 +303,35 @@ def _extension(
                 # In the mirror image odd shapes change their sign.
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
-    found = np.array(columns).reshape(len(columns), offsets[-1]).T
-    found.flags.writeable = False
-    return found
+    amplitudes = np.array(columns).reshape(len(columns), offsets[-1]).T
+    whole, own = amplitudes.shape
+    energies = np.zeros((whole + surfaces, own + surfaces))
+    # Energies are like the squares of amplitudes.
+    energies[:whole, :own] = amplitudes**2 / (amplitudes**2).sum(axis=0)
+    energies[whole:, own:] = np.eye(surfaces)
+    for matrix in (amplitudes, energies):
+        matrix.flags.writeable = False
+    return Extension(amplitudes, energies)
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:
-    """Whether the inertia of K − σM in each part confirms the number of modes below σ, in the widest of the last
-    gaps."""
-    values = solution.modes.eigenvalues
-    if len(values) < 2:
-        shift = 2.0 * float(values[-1]) if len(values) else 1.0
-    else:
-        gaps = [upper / lower for lower, upper in pairwise(values)]
-        first = max(0, len(gaps) - 3)
-        widest = first + int(np.argmax(gaps[first:]))
-        shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    """Whether the inertia of K − σM in each part confirms the number of modes below σ, of `counted_below`."""
+    shift = counted_below(solution.modes.eigenvalues)
+    return counts_agree(solution, shift, [count_below(part.pencil, shift) for part in solution.parts])
+
+
+def counted_below(eigenvalues: np.ndarray) -> float:
+    """Return σ, below which modes are counted: in the widest of the last gaps between them."""
+    if len(eigenvalues) < 2:
+        return 2.0 * float(eigenvalues[-1]) if len(eigenvalues) else 1.0
+    last = eigenvalues[-4:]
+    widest = int(np.argmax(last[1:] / last[:-1]))
+    return float(np.sqrt(last[widest] * last[widest + 1]))
+
+
+def counts_agree(solution: FieldSolution, shift: float, counts: Sequence[int]) -> bool:
+    """Return whether the numbers of modes below σ, counted in each part, are those of the modes found."""
     return all(
-        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) + len(part.modes.growing)
-        for part in solution.parts
+        count == np.count_nonzero(part.modes.eigenvalues < shift) + len(part.modes.growing)
+        for part, count in zip(solution.parts, counts, strict=True)
     )

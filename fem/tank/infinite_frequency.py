@@ -30,7 +30,7 @@ from hydroelastic.fem.tank.error_estimates import (
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, extension, solve_parts
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
-from hydroelastic.fem.tank.released_beam import ReleasedModes, released_modes
+from hydroelastic.fem.tank.released_beam import ReleasedModes
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
@@ -137,7 +137,7 @@ def infinite_frequency_limit(
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
         if user_mesh is None and not has_added_mass:
             with watch.stage(stage):
-                released = released_modes(tank, resolution.shapes[0])
+                released = liquids.released(tank, resolution.shapes[0])
                 if released is not None:
                     return _released(tank, released, resolution, tolerance)
         with watch.stage(stage):
@@ -176,13 +176,12 @@ def _released(
 ) -> Attempt[InfiniteFrequencyLimit]:
     """The limit of a single beam from its modes."""
     found = elastic_tone(modes, modes.bodies, 0)
-    tone = None
+    errors, tone = modes.errors_of(found.index), None
     if not _is_hidden(modes.eigenvalues, found, tolerance):
-        error = float(modes.errors.total[found.index])
-        tone = PressureReleaseTone(eigenvalue=float(modes.eigenvalues[found.index]), error=error)
+        tone = PressureReleaseTone(eigenvalue=float(modes.eigenvalues[found.index]), error=errors.largest_total)
     return Attempt(
         result=InfiniteFrequencyLimit(tones=(tone,), eigenvalues=tuple(map(float, modes.eigenvalues))),
-        causes=modes.errors.of(found.index),
+        causes=errors,
         resolution=resolution,
         missing=int(tone is None),
     )
@@ -207,7 +206,9 @@ def _with_tones(
     seen = [tone.certain and not _is_hidden(field.modes.eigenvalues, tone, tolerance) for tone in found]
     indices = sorted({tone.index for tone, is_seen in zip(found, seen, strict=True) if is_seen})
     modes = [field.modes.completed(index) for index in indices]
-    causes = frequency_errors(field, modes, field.parts_of(indices), resolution, tank, infinite_frequency=True)
+    causes = frequency_errors(
+        field, modes, [field.origins[index] for index in indices], resolution, tank, infinite_frequency=True
+    )
     tones = {
         index: PressureReleaseTone(eigenvalue=mode.eigenvalue, error=float(error))
         for index, mode, error in zip(indices, modes, causes.total, strict=True)
@@ -253,7 +254,7 @@ def _added_mass(
 def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Return the map from motions of the whole tank to those of a part (columns), with which energies of parts add
     up."""
-    columns = extension(tank, bodies, parity)
+    columns = extension(tank, bodies, parity).amplitudes
     if parity is None:
         return columns
     # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half has the

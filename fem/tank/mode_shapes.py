@@ -54,11 +54,11 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     """
     tank, field = solution.tank, solution.field
     growing = sorted(
-        zip(solution.modes.growing, field.growing_parts, strict=True), key=lambda found: found[0].eigenvalue
+        zip(solution.modes.growing, field.growing_origins, strict=True), key=lambda found: found[0].eigenvalue
     )
     modes = [*solution.asked, *(mode for mode, _ in growing)]
     parities = [field.parity(index) for index in range(len(solution.asked))]
-    parities += [field.parts[part].parity for _, part in growing]
+    parities += [field.parts[part].parity for _, (part, _) in growing]
     sampled = _sampled(solution, modes, parities)
     if sampled is None:
         return None

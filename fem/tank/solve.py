@@ -39,10 +39,10 @@ from hydroelastic.fem.tank.resolution import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.fem.tank.together import attempt_together
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.physics.rigid_motions import mode_count
-from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 
 _MOST_ATTEMPTS = 5
@@ -143,17 +143,19 @@ def solve_tank(
         return known
     comm = comm or MPI.COMM_WORLD
     watch = Stopwatch()
+    given = comm.bcast(mesh is not None, root=0)
     with watch.stage("plan"):
-        tank = physical.scaled()
-        first = liquids.first(tank, tolerance, modes)
+        begun = liquids.first_attempt(physical, tolerance, modes, halves=halves and not given)
+        tank, first = begun.tank, begun.resolution
+    watch.seconds |= begun.seconds
     user_mesh: TankMesh | None = None
-    if comm.bcast(mesh is not None, root=0):
+    if given:
         with watch.stage("mesh"):
             user_mesh = distributed_user_mesh(
                 comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None
             )
         first = replace(first, tip_size=None)
-    half = halves and user_mesh is None and is_mirror_image(tank)
+    half = begun.half
     workable = workable_tolerance(tolerance, tank.depth)
     attempts = count(1)
 
@@ -167,11 +169,17 @@ def solve_tank(
     def solve(resolution: Resolution) -> TankSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
-        with watch.stage("mesh"):
-            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
+        field, counted = (begun.field, begun.counted) if attempt == 1 else (None, None)
+        if field is None:
+            with watch.stage("mesh"):
+                mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
         beside = limit()
-        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
-        return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
+        if field is None:
+            field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
+        if counted is None:
+            with watch.stage("count"):
+                counted = count_is_confirmed(field)
+        return _judged(physical, tank, (tolerance, modes), resolution, field, counted, beside, watch, attempt)
 
     found = adaptive_solve(
         first,
@@ -211,6 +219,7 @@ def _judged(
     asked_for: tuple[float, int],
     resolution: Resolution,
     field: FieldSolution,
+    counted: bool,
     limit: InfiniteFrequencyLimit,
     watch: Stopwatch,
     attempt: int,
@@ -220,16 +229,14 @@ def _judged(
     tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(toned_bodies(tank)))
     complete = len(field.modes.eigenvalues) <= resolution.modes
     moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
-    with watch.stage("count"):
-        counted = count_is_confirmed(field)
     with watch.stage("errors"):
         asked = min(count, len(field.modes.eigenvalues))
         beams = (tone.tone.index for tone in tones if tone.tone is not None)
         floats = (mode.index for mode in moved if mode.index is not None)
         indices = sorted({*range(asked), *beams, *floats})
         modes = [field.modes.completed(index) for index in indices]
-        parts = [*field.parts_of(indices), *field.growing_parts]
-        causes = frequency_errors(field, [*modes, *field.modes.growing], parts, resolution, tank)
+        origins = [*(field.origins[index] for index in indices), *field.growing_origins]
+        causes = frequency_errors(field, [*modes, *field.modes.growing], origins, resolution, tank)
     errors = np.full(len(field.modes.eigenvalues), np.nan)
     errors[indices] = causes.total[: len(indices)]
     solution = TankSolution(
@@ -328,6 +335,7 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
     limits = [ANEW.first_of_limit(tank, workable_tolerance(tolerance, tank.depth)) for tank in scaled]
     fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]
     liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
+    attempt_together(liquids, tanks, tolerance=tolerance, modes=modes)
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
     liquids.of_field = finest([one.resolution for one in solved])

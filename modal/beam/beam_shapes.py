@@ -8,7 +8,7 @@ them.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -59,16 +59,19 @@ def beam_shapes(beam: Beam, count: int) -> BeamShapes:
     return _closed_shapes(beam, count) if beam.is_uniform else _computed_shapes(beam, count)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=256)
 def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     alike = _alike_shapes(beam.ends == "guided", beam.length, count)
-    return replace(
-        alike,
+    return BeamShapes(
         dofs=beam.dofs(count),
+        parities=alike.parities,
+        deflection=alike.deflection,
+        tabulated=alike.tabulated,
         moments=lambda x: beam.flexural_rigidity * alike.moments(x),
         shears=lambda x: beam.flexural_rigidity * alike.shears(x),
         bending=beam.flexural_rigidity * alike.bending,
         mass=beam.mass_per_length * alike.mass,
+        wavenumber=alike.wavenumber,
     )
 
 

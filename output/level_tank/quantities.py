@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone
-from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fractions, mode_kinds
 from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
@@ -52,7 +52,7 @@ def _modes(result: EstimatedLevelTank) -> Iterator[ShownMode]:
 
 
 def _kind(mode: ShownMode) -> str:
-    return mode_kind(mode.one.mode, mode.one.bodies, mode.one.problem.pencil.surfaces)
+    return mode_kinds([mode.one.mode], mode.one.bodies, mode.one.problem.pencil.surfaces)[0]
 
 
 def _tones(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
@@ -156,8 +156,8 @@ MODES = Group("modes", "natural modes by ascending frequency", (
     Quantity("multiplicity", "multiplicity", "1", value=lambda it: it.one.problem.multiplicity,
         note="2 of modes that may be turned about the axis, cos nθ and sin nθ"),
     Quantity("kind", "kind", value=_kind, note="what has most of the potential energy"),
-    Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", "bending",
-        value=lambda it: bending_fraction(it.one.mode, it.one.bodies), shown=".3f"),
+    Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", short="bending energy",
+        value=lambda it: float(bending_fractions([it.one.mode], it.one.bodies)[0]), shown=".3f"),
     Quantity("residual", "relative residual of the eigenpair", "1", value=lambda it: it.one.mode.residual,
         printed=False),
 ), record=_modes, dimension="mode", prefix="mode")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.output.level_tank.quantities import ESTIMATES, EXACT, FIRST_ELASTIC, MODES
 from hydroelastic.output.provenance import Summary, spent
-from hydroelastic.output.quantity_tables import headings, labelled_columns, listed
+from hydroelastic.output.quantity_tables import headings, labelled_columns, listed, without_zeros
 from hydroelastic.output.sections import Section
 
 
@@ -53,10 +53,11 @@ def _modes(summary: Summary) -> Section:
         lines.append(
             f"{zero} motion{'s' * (zero > 1)} of bodies without stiffness {'are' if zero > 1 else 'is'} not listed."
         )
+    told = without_zeros(MODES, "elastic_energy_fraction", summary["modes"])
     return Section(
         title="Natural modes",
-        headings=("mode", *headings(MODES)),
-        rows=labelled_columns(MODES, summary["modes"]),
+        headings=("mode", *headings(told)),
+        rows=labelled_columns(told, summary["modes"]),
         lines=tuple(lines),
     )
 

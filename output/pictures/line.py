@@ -118,8 +118,8 @@ def _draw_plane(figure: Figure, box: tuple[float, float, float, float], view: Li
     axes.set_axisbelow(True)
     axes.spines[:].set_color(_GRID)
     axes.tick_params(labelsize=21.0 * POINT, length=8.0 * POINT, width=1.6 * POINT)
-    axes.set_xlabel("x (m)", **_AXIS)
-    axes.set_ylabel("z (m)", **_AXIS)
+    axes.set_xlabel("x, m", **_AXIS)
+    axes.set_ylabel("z, m", **_AXIS)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(8, steps=(1, 2, 5, 10)))
     starts, vectors = _stream(view)
@@ -139,7 +139,7 @@ def _draw_space(figure: Figure, box: tuple[float, float, float, float], view: Li
     sides = view.high - view.low
     for axis, low, high, side in zip("xyz", view.low, view.high, sides, strict=True):
         getattr(axes, f"set_{axis}lim")(low, high, view_margin=0.0)
-        getattr(axes, f"set_{axis}label")(f"{axis} (m)", labelpad=26.0 * POINT, **_AXIS)
+        getattr(axes, f"set_{axis}label")(f"{axis}, m", labelpad=26.0 * POINT, **_AXIS)
         own = getattr(axes, f"{axis}axis")
         # Labels of a short side would cover each other.
         own.set_major_locator(MaxNLocator(max(2, round(8.0 * side / sides.max())), steps=(1, 2, 5, 10)))

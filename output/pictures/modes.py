@@ -237,8 +237,8 @@ def _draw_scales(axes: Axes, view: View, start: float, per_metre: float) -> None
     axes.set_xticks(x - start, tick_labels(x))
     axes.set_yticks(view.drawn(y), tick_labels(y))
     axes.tick_params(length=(WALL + 8.0) * POINT, width=1.6 * POINT, pad=4.0 * POINT, labelsize=21.0 * POINT)
-    axes.set_xlabel("x (m)", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
-    axes.set_ylabel("y (m)", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
+    axes.set_xlabel("x, m", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
+    axes.set_ylabel("y, m", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
     # Beside the liquids, not the room above them.
     low, middle, high = view.drawn(
         np.array([-view.depth, 0.5 * (view.upper_depth - view.depth), view.upper_depth + view.headroom])

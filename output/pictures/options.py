@@ -21,13 +21,13 @@ OF_FIELDS: frozenset[PictureOption] = frozenset(("width",))
 OF_MOTIONS: frozenset[PictureOption] = frozenset(("animate",))
 """Options that what moves heeds."""
 
-_NO_CURVES = "this scene has only rendered pictures, which are PNG files as wide as --image-width says"
+_NO_CURVES = "this scene has only rendered pictures, which are PNG files as wide as width (--image-width) says"
 _WITHOUT_EFFECT: dict[PictureOption, str] = {
     "formats": "a format of curves has no effect: " + _NO_CURVES,
     "dpi": "a resolution of curves has no effect: " + _NO_CURVES,
     "scale": "a scale of curves has no effect: " + _NO_CURVES,
-    "width": "a width of rendered pictures has no effect: this scene has none, only curves, which --dpi and "
-    "--image-scale size",
+    "width": "a width of rendered pictures has no effect: this scene has none, only curves, which dpi "
+    "and scale (--dpi, --image-scale) size",
     "animate": "an animation has no effect: nothing of this scene can be animated",
 }
 

@@ -209,14 +209,14 @@ class ColourBar:
         figure: receives them.
         colours: from the first to the last.
         meaning: of the values.
-        measure: their unit, with anything that belongs into the same parentheses.
+        measure: their unit, with anything that is said beside it.
     """
 
     def __init__(self, figure: Figure, colours: Colormap | str, *, meaning: str, measure: str) -> None:
         """Draw the colours."""
         self._meaning, self._measure = meaning, measure
         width, gap = 640.0, 40.0
-        left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning} ({measure})"))
+        left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning}, {measure}"))
         self._axes = figure.add_axes(place(figure, left, 102.0, width, 20.0))
         self._axes.patch.set_visible(False)
         self._axes.yaxis.set_visible(False)
@@ -234,7 +234,7 @@ class ColourBar:
         exponent = int(np.floor(np.log10(max(abs(low), abs(high)))))
         exponent = 0 if -3 <= exponent <= 3 else exponent
         power = f"$10^{{{exponent}}}$ " if exponent else ""
-        self._label.set_text(f"{self._meaning} ({power}{self._measure})")
+        self._label.set_text(f"{self._meaning}, {power}{self._measure}")
         ticks = round_ticks(low / 10.0**exponent, high / 10.0**exponent, 8)
         self._axes.set_xticks((ticks * 10.0**exponent - low) / (high - low), tick_labels(ticks))
 

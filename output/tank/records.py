@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fractions, mode_kinds
 from hydroelastic.fem.tank.float_modes import FloatMode
 from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 def natural_modes(solution: TankSolution) -> list[Values]:
     """Return the modes asked for."""
     rows = []
+    field = solution.field
+    kinds = mode_kinds(solution.asked, field.bodies, field.surfaces)
+    fractions = bending_fractions(solution.asked, field.bodies)
     for index, mode in enumerate(solution.asked):
         omega = solution.omega(mode.eigenvalue)
         rows.append(
@@ -29,9 +32,9 @@ def natural_modes(solution: TankSolution) -> list[Values]:
                 "omega": omega,
                 "frequency_hz": solution.units.hertz(omega / solution.units.frequency),
                 "relative_error": float(solution.relative_errors[index]),
-                "kind": mode_kind(mode, solution.field.bodies, solution.field.surfaces),
-                "symmetry": solution.field.parity(index),
-                "elastic_energy_fraction": bending_fraction(mode, solution.field.bodies),
+                "kind": kinds[index],
+                "symmetry": field.parity(index),
+                "elastic_energy_fraction": float(fractions[index]),
                 "residual": mode.residual,
             }
         )
@@ -132,15 +135,20 @@ def _float_mode(solution: TankSolution, mode: FloatMode) -> Values:
 
 def growing_motions(solution: TankSolution) -> list[Values]:
     """Return the motions of unstable floats, e^{σt}, fastest first."""
+    field, modes = solution.field, solution.modes.growing
     rows = [
         {
             "growth_rate": solution.omega(-mode.eigenvalue),
             "relative_error": float(error),
-            "symmetry": solution.field.parts[part].parity,
-            "kind": mode_kind(mode, solution.field.bodies, solution.field.surfaces),
+            "symmetry": field.parts[part].parity,
+            "kind": kind,
         }
-        for mode, part, error in zip(
-            solution.modes.growing, solution.field.growing_parts, solution.growing_errors, strict=True
+        for mode, (part, _), error, kind in zip(
+            modes,
+            field.growing_origins,
+            solution.growing_errors,
+            mode_kinds(modes, field.bodies, field.surfaces),
+            strict=True,
         )
     ]
     return sorted(rows, key=lambda row: -row["growth_rate"])

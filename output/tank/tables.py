@@ -7,7 +7,7 @@ from typing import Any
 
 from hydroelastic.output.digits import counted, with_certain_digits
 from hydroelastic.output.provenance import Summary, spent
-from hydroelastic.output.quantity_tables import headings, labelled_columns
+from hydroelastic.output.quantity_tables import headings, labelled_columns, without_zeros
 from hydroelastic.output.sections import Section
 from hydroelastic.output.tank.quantities import (
     ESTIMATES,
@@ -35,10 +35,11 @@ def tank_sections(summary: Summary, expected: Iterable[str] = ()) -> Iterator[Se
         mode | {"kind": f"{mode['kind']}, first elastic tone"} if place in tones else mode
         for place, mode in enumerate(summary["modes"], 1)
     ]
+    told = without_zeros(MODES, "elastic_energy_fraction", modes)
     yield Section(
         title="Natural modes",
-        headings=("mode", *headings(MODES)),
-        rows=labelled_columns(MODES, modes),
+        headings=("mode", *headings(told)),
+        rows=labelled_columns(told, modes),
         lines=(*_lines(summary), *expected),
     )
     yield from _estimates(summary)

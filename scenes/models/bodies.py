@@ -23,7 +23,7 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.motions import Level, SectionMotion
-from hydroelastic.scenes.errors import scene_error
+from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -51,6 +51,13 @@ class _Keyworded(ModelMetaclass):
 
     if not TYPE_CHECKING:  # where the keywords are those of each model
 
+        def __getattr__(cls, name: str) -> Any:  # noqa: N805
+            """Return the signature, for help and completion in notebooks, which pydantic makes at the first use."""
+            if name != "__signature__" or cls.__pydantic_complete__:
+                return super().__getattr__(name)
+            cls.model_rebuild()
+            return cls.__signature__
+
         def __call__(cls, /, *values: Any, **keys: Any) -> Any:  # noqa: N805
             if values:
                 raise TypeError(f"{cls.__name__} takes keywords alone: {', '.join(cls.model_fields)}")
@@ -69,6 +76,17 @@ class SceneModel(BaseModel, metaclass=_Keyworded):
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
+
+    if not TYPE_CHECKING:  # where an assignment is refused as it is
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Refuse an assignment in the words of a scene."""
+            try:
+                super().__setattr__(name, value)
+            except ValidationError:
+                remedy = 'Make a changed copy of the scene, for example he.read(scene, {"tank.length": 7.0})'
+                problem = Problem(key=name, value=shown_value(value), wrong="scenes cannot be changed", remedy=remedy)
+                raise SceneError(problem) from None
 
 
 class SparseModel(SceneModel):

@@ -112,7 +112,8 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: 
             if is_whole:
                 unit, force = ("kg·m²", "N") if turns else ("kg", "N/m")
             label_axes(left, _FREQUENCY, f"{mass_name} a, {unit}")
-            label_axes(right, _FREQUENCY, f"radiation damping b, {unit}/s")
+            damping_unit = "kg/(m·s)" if unit == "kg/m" else f"{unit}/s"
+            label_axes(right, _FREQUENCY, f"radiation damping b, {damping_unit}")
             label_axes(last, _FREQUENCY, f"excitation {'moment' if turns else 'force'} |f|, {force}")
 
 

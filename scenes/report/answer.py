@@ -89,7 +89,7 @@ def _elastic(kind: Group, summary: Summary, what: str) -> Iterator[Row]:
         if elastic["omega"] is not None:
             # Of plates the tone is sought in its own order too, above the modes that were asked for.
             index = "" if elastic["index"] is None else f", mode {elastic['index']}"
-            name = f"ω of the first mode of {what} {elastic['body']}{index}"
+            name = f"ω of the first elastic tone of {what} {elastic['body']}{index}"
             yield _declared(kind["first_elastic_by_body"], elastic, "omega", name)
 
 
@@ -156,7 +156,7 @@ def _largest_damping(table: Summary, is_whole: bool) -> Iterator[Row]:
         damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
         quantity = f"largest radiation damping of {dof.words}, at ω = {table['omega'][place]:.4g} rad/s"
-        units = ("kg/s", "kg·m²/s") if is_whole else ("kg/m/s", "kg·m/s")
+        units = ("kg/s", "kg·m²/s") if is_whole else ("kg/(m·s)", "kg·m/s")
         yield _row(f"{quantity}, {units[dof.is_rotation]}", max(damping), table["relative_error"][place])
 
 

@@ -29,6 +29,8 @@ _EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
     (True, True): "both",
 }
 _FEW_POSITIONS = 20
+# Part of the largest |U| of a shape by which neighbouring positions beside a front differ where the string jumps there.
+_JUMP = 0.1
 
 
 def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> None:
@@ -117,7 +119,12 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
         for place, curve, sure, colour in zip(places, bridged, known.T, sequence_colours(len(places)), strict=True):
             label = f"{solution.times[place]:.4g} s"
             axes.plot(curve, solution.positions, ":", color=colour, linewidth=1.2)
-            axes.plot(np.where(sure, curve, np.nan), solution.positions, **_drawn(solution), color=colour, label=label)
+            # At t = 0 the end has jumped, and both sides of the front are known.
+            jumps = np.abs(np.diff(curve)) > _JUMP * np.abs(curve).max()
+            cuts = 1 + np.flatnonzero(jumps & solution.beside_fronts[1:, place] & solution.beside_fronts[:-1, place])
+            shape = np.insert(np.where(sure, curve, np.nan), cuts, np.nan)
+            heights = np.insert(solution.positions, cuts, np.nan)
+            axes.plot(shape, heights, **_drawn(solution), color=colour, label=label)
         if not known.all():
             axes.plot([], [], ":", color=GREY, linewidth=1.2, label="across a front")
         label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")

@@ -10,7 +10,6 @@ from itertools import groupby
 from pathlib import Path
 
 from rich import box
-from rich.console import Console
 from rich.table import Table
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS
@@ -22,6 +21,7 @@ from hydroelastic.output.folder import SUMMARY, result_folder
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.sections import text_console, text_of
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, folder_errors
 from hydroelastic.scenes.level_tank.solve import require_treated
@@ -73,9 +73,10 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
     if "tolerance" not in plan.families:
         raise SceneError(
             Problem(
-                key="--families",
+                key="families",
                 wrong="in three dimensions each model is asked for tolerances; meshes are of tanks per metre of width",
                 allowed="tolerance",
+                argument=True,
             )
         )
     tank, modes = physical_level_tank(scene), scene.accuracy.modes
@@ -101,7 +102,7 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
 
 def level_study_table(study: LevelStudy) -> str:
     """All rows by model, as text."""
-    console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False)
+    console = text_console(_WIDTH)
     reference = study.reference
     certain = f", estimated error {reference.uncertainty:.1e}" if reference.uncertainty else ", exact"
     for line in (
@@ -134,8 +135,7 @@ def level_study_table(study: LevelStudy) -> str:
     between = f"estimate over error from {min(told):.1f} to {max(told):.1f}" if told else "all errors are rounding"
     kept = "not all kept: " + "; ".join(study.reasons) if study.reasons else "all kept"
     console.print(f"Tolerances: {kept}; {between}.", markup=False)
-    text: str = console.file.getvalue()  # type: ignore[attr-defined]
-    return "\n".join(line.rstrip() for line in text.splitlines())
+    return "\n".join(line.rstrip() for line in text_of(console).splitlines())
 
 
 def write_level_study(

@@ -22,6 +22,7 @@ from hydroelastic.fem.study.thinness import fitted_thinness
 from hydroelastic.output.folder import SUMMARY, result_folder
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.sections import text_console, text_of
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.errors import folder_errors
@@ -72,14 +73,13 @@ _SHOWN: dict[Family, tuple[str, ...]] = {
 
 def study_table(study: Study) -> str:
     """All rows by family, and the observed rates with those of theory, as text."""
-    console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False)
+    console = text_console(_WIDTH)
     if study.reference is not None:
         _print_errors(console, study, study.reference)
     if "thinness" in study.plan.families:
         console.print(TITLES["thinness"], markup=False)
         print_thinness(console, study.thinness)
-    text: str = console.file.getvalue()  # type: ignore[attr-defined]
-    return "\n".join(line.rstrip() for line in text.splitlines())
+    return "\n".join(line.rstrip() for line in text_of(console).splitlines())
 
 
 def _print_errors(console: Console, study: Study, reference: Reference) -> None:

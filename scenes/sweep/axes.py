@@ -66,11 +66,11 @@ class Grid:
         keys = [axis.key for axis in self.axes]
         twice = next((key for key in keys if keys.count(key) > 1), None)
         if not keys:
-            raise SceneError(_refused("", "nothing is varied"))
+            raise SceneError(_refused("", "nothing is varied", _EXAMPLE_IN_PYTHON))
         if twice is not None:
             raise SceneError(_refused(twice, "the key stands twice", "Name all of its values at once"))
         if len(self) > MOST_POINTS:
-            raise SceneError(_refused(f"{len(self)} points", "there are too many", f"{MOST_POINTS} at most"))
+            raise SceneError(_refused(f"{len(self)} points", "there are too many", f"At most {MOST_POINTS}"))
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -96,7 +96,8 @@ def grid_from_values(vary: Vary) -> Grid:
     """
     if not isinstance(vary, Mapping):
         wrong = "it is not a dictionary of values by key"
-        raise SceneError(Problem(key="vary", value=repr(vary)[:60], wrong=wrong, remedy=_EXAMPLE_IN_PYTHON))
+        problem = Problem(key="vary", value=repr(vary)[:60], wrong=wrong, remedy=_EXAMPLE_IN_PYTHON, argument=True)
+        raise SceneError(problem)
     axes = []
     for key, values in vary.items():
         given = plain(values)
@@ -165,7 +166,7 @@ def _value(text: str, entry: str) -> Any:
 
 
 def _refused(value: str, wrong: str, remedy: str = _EXAMPLE) -> Problem:
-    return Problem(key="--vary", value=shown_value(value), wrong=wrong, remedy=remedy)
+    return Problem(key="vary", value=shown_value(value) if value else "", wrong=wrong, remedy=remedy, argument=True)
 
 
 def point_text(point: Mapping[str, Any]) -> str:

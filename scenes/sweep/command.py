@@ -38,7 +38,7 @@ from hydroelastic.scenes.read import scene_source
     "--jobs",
     type=click.IntRange(min=1),
     default=1,
-    help="Processes that solve at the same time; default 1. Fewer than 300 points of one liquid take one.",
+    help="Processes that solve at the same time; default 1. Fewer than 1000 points of one liquid take one.",
 )
 @click.option("--show", multiple=True, metavar="NAME", help="Quantity to print and draw, a column of sweep.csv.")
 @click.option("--estimates", is_flag=True, help="Make the estimates of older theories at each point too.")

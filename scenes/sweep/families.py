@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import sha256
 from math import ceil
@@ -20,31 +20,40 @@ if TYPE_CHECKING:
 _FEWEST = 4
 # One more scene of the sample for so many points: of few points further directions cost less than further solutions.
 _FOR_EACH = 32
+# Points that are solved together: with more of them their arrays leave the caches of a processor.
+_TOGETHER = 64
 
 
 @dataclass(frozen=True, kw_only=True)
 class Family:
-    """Closed tanks that differ only in what does not touch the liquid.
+    """Closed tanks that differ only in what does not touch the liquid, and some of them that are solved together.
 
     Attributes:
-        name: a hash, which also tells families of different sweeps apart.
+        name: a hash of all of them, which also tells families of different sweeps apart.
         sample: some scenes of the grid, with the first and the last one: all take a resolution that suffices for them,
             and the directions of their motions, so that the result of a point does not depend on which points were
             solved before.
+        batch: number of those that are solved together.
+        together: their scenes, without those of the sample; none for a point beside the grid.
     """
 
     name: str
     sample: tuple[TankScene, ...]
+    batch: int = -1
+    together: tuple[TankScene, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Families:
-    """The families of a sweep, by what their liquid depends on."""
+    """The families of a sweep, by what their liquid depends on, and by the scenes of the grid."""
 
     known: dict[str, Family]
+    of_scenes: dict[TankScene, Family]
 
     def of(self, scene: Scene | SceneError) -> Family | None:
         """Return the family of a scene; ``None`` without one."""
+        if isinstance(scene, TankScene) and scene in self.of_scenes:
+            return self.of_scenes[scene]
         return self.known.get(_liquid_of(scene))
 
 
@@ -55,19 +64,26 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
         if isinstance(scene, TankScene):
             members.setdefault(_liquid_of(scene), []).append(scene)
     members.pop("", None)
-    samples = {liquid: _sample(found) for liquid, found in members.items() if len(found) >= _FEWEST}
-    return Families(
-        known={
-            liquid: Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
-            for liquid, sample in samples.items()
-        }
-    )
+    known: dict[str, Family] = {}
+    of_scenes: dict[TankScene, Family] = {}
+    for liquid, own in members.items():
+        if len(own) < _FEWEST:
+            continue
+        places = _places_of_sample(len(own))
+        sample = tuple(own[place] for place in places)
+        family = Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
+        known[liquid] = family
+        for batch, first in enumerate(range(0, len(own), _TOGETHER)):
+            batched = range(first, min(first + _TOGETHER, len(own)))
+            others = tuple(own[place] for place in batched if place not in places)
+            one = replace(family, batch=batch, together=others)
+            of_scenes |= {own[place]: one for place in batched}
+    return Families(known=known, of_scenes=of_scenes)
 
 
-def _sample(scenes: list[TankScene]) -> tuple[TankScene, ...]:
-    last = len(scenes) - 1
-    count = 1 + ceil(len(scenes) / _FOR_EACH)
-    return tuple(scenes[round(number * last / (count - 1))] for number in range(count))
+def _places_of_sample(scenes: int) -> list[int]:
+    count = 1 + ceil(scenes / _FOR_EACH)
+    return [round(number * (scenes - 1) / (count - 1)) for number in range(count)]
 
 
 @lru_cache(maxsize=256)
@@ -86,19 +102,33 @@ def _hash(*texts: str) -> str:
     return sha256("\n".join(texts).encode()).hexdigest()
 
 
-LAST: dict[str, SharedLiquids] = {}
-"""The liquids of the last family, by its name."""
+@dataclass
+class _Shared:
+    """The liquids of a family, and the batch whose first attempts are made."""
+
+    liquids: SharedLiquids
+    batch: int = -1
+
+
+LAST: dict[str, _Shared] = {}
+"""Those of the last family, by its name."""
 
 
 def liquids_of(family: Family) -> SharedLiquids:
-    """Return the liquids of a family, made when it is first asked for; those of the last family only are kept."""
-    if family.name not in LAST:
-        from hydroelastic.fem.tank.solve import shared_liquids
-        from hydroelastic.scenes.models.physical import physical_tank
+    """Return the liquids of a family, made when it is first asked for, with the first attempts at the tanks of its
+    batch; those of the last family and batch only are kept."""
+    from hydroelastic.fem.tank.solve import shared_liquids
+    from hydroelastic.fem.tank.together import attempt_together
+    from hydroelastic.scenes.models.physical import physical_tank
 
-        asked = family.sample[0].accuracy
+    asked = family.sample[0].accuracy
+    if family.name not in LAST:
         LAST.clear()
-        LAST[family.name] = shared_liquids(
-            [physical_tank(scene) for scene in family.sample], tolerance=asked.tolerance, modes=asked.modes
-        )
-    return LAST[family.name]
+        tanks = [physical_tank(scene) for scene in family.sample]
+        LAST[family.name] = _Shared(shared_liquids(tanks, tolerance=asked.tolerance, modes=asked.modes))
+    shared = LAST[family.name]
+    if family.batch not in (-1, shared.batch):
+        shared.batch, tanks = family.batch, [physical_tank(scene) for scene in family.together]
+        if tanks:
+            attempt_together(shared.liquids, tanks, tolerance=asked.tolerance, modes=asked.modes)
+    return shared.liquids

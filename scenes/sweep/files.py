@@ -102,8 +102,8 @@ def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
         lines.append(f"The modes hold {found['least_participation_sum']:.4f} or more of each first elastic tone.")
     if found["unresolved"] or found["more_needed"]:
         lines.append(
-            f"NOT RESOLVED: {found['unresolved']} encounters of modes, see encounters.csv. Take more values, or raise "
-            f"--refinements."
+            f"NOT RESOLVED: {found['unresolved']} encounters of modes, see encounters.csv. Take more values, or allow "
+            f"more refinements."
         )
     return lines
 

@@ -79,7 +79,7 @@ def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Jo
         descriptor = os.open(folder / JOURNAL, os.O_RDWR | os.O_APPEND | os.O_CREAT, 0o666)
     except OSError as error:
         wrong = f"it cannot be written ({error.strerror})"
-        problem = Problem(key=f"output folder {folder}", wrong=wrong, remedy="Name another folder with --out")
+        problem = Problem(key=f"output folder {folder}", wrong=wrong, remedy="Name another folder")
         raise SceneError(problem) from error
     try:
         try:
@@ -88,7 +88,7 @@ def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Jo
             problem = Problem(
                 key=f"output folder {folder}",
                 wrong="another sweep is writing into it",
-                remedy="Wait for its end, or name another folder with --out",
+                remedy="Wait for its end, or name another folder",
             )
             raise SceneError(problem) from error
         except OSError:  # Some network file systems have no locks.

@@ -90,11 +90,12 @@ def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str,
         if name.replace(".", "_") not in numbers:
             raise SceneError(
                 Problem(
-                    key="--show",
+                    key="show",
                     value=shown_value(name),
                     wrong="it holds no numbers" if name in table else "there is no such quantity",
                     allowed="a column of sweep.csv with numbers",
                     remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:_NAMED])} …",
+                    argument=True,
                 )
             )
     if show:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
-from rich.console import Console
-
 from hydroelastic.output.folder import results_message
-from hydroelastic.output.sections import rich_table
+from hydroelastic.output.sections import rich_table, text_console, text_of
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.files import followed_lines_of_text, sweep_rows
 
@@ -26,7 +23,7 @@ def sweep_report(sweep: SweepContents, show: tuple[str, ...], folder: Path, *, r
         folder: the result folder.
         replaces: whether it had files of an earlier run.
     """
-    console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False, emoji=False)
+    console = text_console(_WIDTH)
     solved = sweep.solved
     headings, rows = sweep_rows(sweep, show)
     console.print(solved.scene.title or "Untitled scene", markup=False)
@@ -37,5 +34,4 @@ def sweep_report(sweep: SweepContents, show: tuple[str, ...], folder: Path, *, r
         console.print(line, markup=False)
     if solved.resumed:
         console.print(f"{solved.resumed} points were solved before, and kept in the folder.")
-    text: str = console.file.getvalue()  # type: ignore[attr-defined]
-    return f"{text.rstrip()}\nResults written to {results_message(folder, replaces=replaces)}"
+    return f"{text_of(console).rstrip()}\nResults written to {results_message(folder, replaces=replaces)}"

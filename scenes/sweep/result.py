@@ -10,8 +10,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from hydroelastic.fem.stopwatch import Report
+from mpi4py import MPI
+
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.axes import Vary, grid_from_values
 from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
@@ -97,9 +99,9 @@ def sweep(
     follow: bool = True,
     refinements: int | None = None,
     out: str | Path | None = None,
-    report: Report = lambda _message: None,
+    report: bool = False,
 ) -> Sweep:
-    """Solve a scene for all combinations of some values of its keys; prints nothing (collective).
+    """Solve a scene for all combinations of some values of its keys; writes nothing without ``out`` (collective).
 
     In a script, a sweep with several jobs is called below ``if __name__ == "__main__":``.
 
@@ -111,14 +113,16 @@ def sweep(
         follow: whether to follow the modes of closed tanks along the first key.
         refinements: largest number of points that are added for that; by default four for each of the grid.
         out: folder for the journal, from which an interrupted sweep goes on; ``Sweep.save(out)`` writes the results.
-        report: called with the number of points solved.
+        report: whether the number of points solved is shown, on a terminal or below the cell of a notebook.
 
     Raises:
         SceneError: if no point has a valid scene, or the folder cannot be written.
     """
     options = SweepOptions(jobs=jobs, estimates=estimates, follow=follow, refinements=refinements)
     folder = None if out is None else Path(out)
-    return Sweep(solved=solve_sweep(scene, grid_from_values(vary), options=options, out=folder, report=report))
+    grid = grid_from_values(vary)
+    with progress(", ".join(axis.key for axis in grid.axes), shown=report and MPI.COMM_WORLD.rank == 0) as told:
+        return Sweep(solved=solve_sweep(scene, grid, options=options, out=folder, report=told))
 
 
 def _frame(content: Any) -> Any:

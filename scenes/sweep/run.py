@@ -19,9 +19,9 @@ from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
 from hydroelastic.scenes.sweep.families import families
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
-from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, failed, point_key
+from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, failed, point_key
 from hydroelastic.scenes.sweep.quantities import columns, quantities, shown_columns
-from hydroelastic.scenes.sweep.workers import Task, solved_tasks
+from hydroelastic.scenes.sweep.workers import solved_tasks
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.sweep.lines import Line
@@ -55,11 +55,12 @@ class SweepOptions:
     def __post_init__(self) -> None:
         """Refuse what cannot be done."""
         if self.jobs < 1:
-            problem = Problem(key="--jobs", value=shown_value(self.jobs), wrong="it is too small", allowed="1 or more")
-            raise SceneError(problem)
+            raise SceneError(self._jobs_refused("it is too small", allowed="1 or more"))
         if self.jobs > 1 and MPI.COMM_WORLD.size > 1:
-            wrong = "under MPI all ranks solve each point together"
-            raise SceneError(Problem(key="--jobs", value=shown_value(self.jobs), wrong=wrong, allowed="1"))
+            raise SceneError(self._jobs_refused("under MPI all ranks solve each point together", allowed="1"))
+
+    def _jobs_refused(self, wrong: str, *, allowed: str) -> Problem:
+        return Problem(key="jobs", value=shown_value(self.jobs), wrong=wrong, allowed=allowed, argument=True)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -362,3 +362,11 @@ def test_the_flux_of_an_elevation_is_that_of_the_surface_in_both_liquids() -> No
     of_bodies = tuple(shape_loads(liquid, body, flux=True)[-1] for body in pencil.bodies)
     fluxes = surface_fluxes(liquid, liquid_matrices(liquid, pencil.surfaces), pencil.surfaces, of_bodies)
     assert fluxes == pytest.approx(surface_load(liquid, names), abs=1e-15)
+
+
+def test_the_flux_of_a_float_is_that_of_its_contour() -> None:
+    (pencil,) = pencils(layered(rigid("ellipse", 0.6, half_width=0.1, half_height=0.1)))
+    (body,) = pencil.bodies
+    flux = shape_loads(pencil.liquid, body, flux=True)[-1]
+    # The measure of a curved facet is no polynomial: measured 1.9e-9 between the two quadratures, of at most 0.017.
+    assert flux == pytest.approx(surface_load(pencil.liquid, (body.surface,)), abs=5e-9)

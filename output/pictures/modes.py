@@ -24,6 +24,7 @@ from hydroelastic.output.pictures.page import (
     WIDTH,
     ColourBar,
     FieldImage,
+    Save,
     new_page,
     pixels,
     place,
@@ -48,7 +49,14 @@ _MARGIN, _SHEET_FOOTER, _SHEET_HEADING, _THIN = 40.0, 100.0, 62.0, 0.62
 _HIGHEST_SHEET = 10_000
 
 
-def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, largest: ModePicture | None = None) -> None:
+def draw_mode(
+    picture: ModePicture,
+    path: Path | str,
+    *,
+    width: int = 1600,
+    largest: ModePicture | None = None,
+    save: Save = save,
+) -> None:
     """Write a mode as one PNG with axes, colour bar and legend.
 
     The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
@@ -58,6 +66,7 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, larg
         path: of the PNG file in an existing folder.
         width: of the image in pixels.
         largest: what gives the scales, if the picture is an instant of a motion; the picture itself by default.
+        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.

@@ -149,7 +149,8 @@ def draw_overview(
         raise ValueError(f"an overview needs at least one column, got {columns}")
     rows = -(-len(pictures) // columns)
     panel = (WIDTH - _MARGIN * (columns + 1)) / columns
-    row = aspect * panel + _SHEET_HEADING
+    # Whole pixels: panels of one size share what is found once.
+    row = np.ceil(aspect * panel) + _SHEET_HEADING
     height = _SHEET_FOOTER + rows * row + 20.0
     figure = new_page(height, min(width, int(_HIGHEST_SHEET * WIDTH / height)))
     tops = [height - 15.0 - (index // columns) * row for index in range(len(pictures))]
@@ -209,6 +210,7 @@ class _Page:
         _label_liquids(axes, densities, view, view.length / drawn_width)
         write_keys(still, keys(names), KEYS)
         self._figure.add_artist(FieldImage(pixels(still), 0, 0))
+        self._figure.patch.set_visible(False)
         name, meaning = ("ρψ", "ρψ ∝ dynamic pressure") if densities else ("ψ", "ψ")
         measure = f"{_UNITS[name]}, {amplitude}"
         self._bar = ColourBar(self._figure, mode_colours(), meaning=meaning, measure=measure)

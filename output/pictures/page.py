@@ -98,10 +98,11 @@ def pixels(figure: Figure) -> NDArray[np.uint8]:
 
 def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
     """The pixels of a page under one title after the other, drawn anew for none of them."""
-    page = pixels(figure)
-    untitled, pages = page.copy(), []
+    page, pages = pixels(figure), []
+    heading = page[: round(HEADING * figure.bbox.width / WIDTH)]
+    untitled = heading.copy()
     for title in titles:
-        page[:] = untitled
+        heading[:] = untitled
         line = write_title(figure, title)
         with _letters():
             figure.draw_artist(line)

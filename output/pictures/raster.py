@@ -52,32 +52,34 @@ class Raster:
     size: tuple[int, int]
 
     @cached_property
-    def _owners(self) -> NDArray[np.intp]:
-        """The number of the triangle at the middle of each pixel, or −1; shape (height, width)."""
+    def _runs(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """Runs of pixels, row by row, with their middles in one triangle: its number or −1, first pixel, how many."""
         width, height = self.size
-        owners = np.full(width * height, -1, dtype=np.intp)
         # Middles of pixels at whole numbers; corners of each triangle from the uppermost down.
         corners = (self.points - 0.5)[self.triangles]
         corners = np.take_along_axis(corners, np.argsort(corners[:, :, 1], axis=1)[:, :, None], axis=1)
         (x, y), spans = corners.transpose(2, 1, 0), np.diff(corners, axis=1, append=corners[:, :1]).transpose(2, 1, 0)
         slopes = spans[0] / np.where(spans[1] == 0.0, np.inf, spans[1])
-        triangle, row = _ranges(y[0], y[2], height)
+        upper, lower = _within(y[0], y[2], height)
+        rows = lower - upper
+        triangle = np.repeat(np.arange(len(rows)), rows)
+        row = np.arange(len(triangle)) + (lower - np.cumsum(rows))[triangle]
         level = np.clip(row, y[0, triangle], y[2, triangle])
         # The edge from the last corner to the first one passes all rows, each of the others some.
         edge = (level >= y[1, triangle]).astype(np.intp)
         one, other = (x[side, triangle] + slopes[side, triangle] * (level - y[side, triangle]) for side in (edge, 2))
-        left, right = np.minimum(one, other), np.maximum(one, other)
-        stroke, column = _ranges(left, right, width)
-        owners[row[stroke] * width + column] = triangle[stroke]
-        return owners.reshape(height, width)
-
-    @cached_property
-    def _runs(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """Runs of pixels of one triangle in a row: its number, the first pixel and how many."""
-        first = np.ones(self._owners.shape, dtype=bool)
-        first[:, 1:] = self._owners[:, 1:] != self._owners[:, :-1]
-        starts = np.flatnonzero(first)
-        return self._owners.ravel()[starts], starts, np.diff(starts, append=self._owners.size)
+        starts, ends = (
+            row * width + column for column in _within(np.minimum(one, other), np.maximum(one, other), width)
+        )
+        # Of those that begin at the same pixel the longest counts, which is the last one.
+        order = np.lexsort((ends, starts))
+        order = order[(starts < ends)[order]]
+        owners, starts, ends = (np.append(first, of[order]) for first, of in ((-1, triangle), (0, starts), (0, ends)))
+        # Triangles share no more pixels than those at their edges: beyond the last end until there is nothing.
+        ends = np.maximum.accumulate(ends)
+        gaps = np.flatnonzero(ends < np.append(starts[1:], width * height))
+        owners, starts = np.insert(owners, gaps + 1, -1), np.insert(starts, gaps + 1, ends[gaps])
+        return owners, starts, np.diff(starts, append=width * height)
 
     def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
         """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
@@ -98,7 +100,8 @@ class Raster:
             values: shape (points, n).
         """
         column, row = np.floor(places).astype(int).T
-        owner = self._owners[row, column]
+        owners, starts, _ = self._runs
+        owner = owners[np.searchsorted(starts, row * self.size[0] + column, side="right") - 1]
         terms = np.column_stack([np.where(owner < 0, np.nan, 1.0), places])
         planes = (self._planes(self.triangles[owner], component) for component in values.T)
         return np.column_stack([(plane * terms).sum(axis=1) for plane in planes])
@@ -125,10 +128,7 @@ class Raster:
         return image.view(np.uint8).reshape(height, width, 4)
 
 
-def _ranges(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """All of 0 … count − 1 that lie from low to high, and the places of the ranges to which they belong."""
+def _within(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The first one of 0 … count − 1 that lies from low to high, and the one after the last; the same if none does."""
     first = np.ceil(np.clip(low - _SLACK, 0.0, count)).astype(np.intp)
-    last = np.floor(np.clip(high + _SLACK, -1.0, count - 1.0)).astype(np.intp)
-    lengths = np.maximum(last - first + 1, 0)
-    place = np.repeat(np.arange(len(low)), lengths)
-    return place, np.arange(len(place)) + (first - np.cumsum(lengths) + lengths)[place]
+    return first, np.maximum(np.floor(np.clip(high + _SLACK, -1.0, count - 1.0)).astype(np.intp) + 1, first)

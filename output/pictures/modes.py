@@ -125,7 +125,12 @@ def animate_motion(
 
 
 def draw_overview(
-    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
+    pictures: Sequence[ModePicture],
+    path: Path | str,
+    *,
+    columns: int | None = None,
+    width: int = 1600,
+    save: Save = save,
 ) -> None:
     """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
 
@@ -134,6 +139,7 @@ def draw_overview(
         path: of the PNG file in an existing folder.
         columns: panels in a row; chosen from the shape of the tank by default.
         width: of the image in pixels.
+        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.

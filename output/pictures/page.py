@@ -91,8 +91,9 @@ def pixels(figure: Figure) -> NDArray[np.uint8]:
     """
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
+    # The canvas would be cleared before, though its background, or what covers it all, is drawn.
     with _letters():
-        canvas.draw()
+        figure.draw(canvas.get_renderer())
     return np.asarray(canvas.buffer_rgba())
 
 

@@ -120,10 +120,12 @@ class Raster:
         planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
         width, height = self.size
         owners, starts, lengths = self._runs
-        along, across, up = planes[owners].T
-        shade = np.repeat(across, lengths).reshape(height, width)
-        shade *= np.arange(width) + 0.5
-        shade += np.repeat(along + up * (starts // width + 0.5), lengths).reshape(height, width)
+        along, across, up = planes.take(owners, axis=0).T
+        # Single precision is that of a ten-thousandth of a shade.
+        lines = np.column_stack([along + up * (starts // width + 0.5), across]).astype(np.float32)
+        lines = np.repeat(lines, lengths, axis=0).reshape(height, width, 2)
+        shade = lines[:, :, 1] * np.arange(0.5, width, dtype=np.float32)
+        shade += lines[:, :, 0]
         image = shades[np.clip(shade, 0.0, len(shades) - 1.0, out=shade).astype(np.intp)]
         return image.view(np.uint8).reshape(height, width, 4)
 

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 _SLACK = 0.05
 # Shades of a scale that has one more at its end, for what rounding takes beyond it.
 _BEYOND = 8
+_STRIP = 32
 _WHITE = np.full(4, 255, dtype=np.uint8)
 
 
@@ -79,6 +80,10 @@ class Raster:
         ends = np.maximum.accumulate(ends)
         gaps = np.flatnonzero(ends < np.append(starts[1:], width * height))
         owners, starts = np.insert(owners, gaps + 1, -1), np.insert(starts, gaps + 1, ends[gaps])
+        # Each row begins a run.
+        rows = width * np.arange(1, height)
+        places = np.searchsorted(starts, rows, side="right")
+        owners, starts = np.insert(owners, places, owners[places - 1]), np.insert(starts, places, rows)
         return owners, starts, np.diff(starts, append=width * height)
 
     def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
@@ -120,13 +125,17 @@ class Raster:
         planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
         width, height = self.size
         owners, starts, lengths = self._runs
-        along, across, up = planes.take(owners, axis=0).T
-        # Single precision is that of a ten-thousandth of a shade.
-        lines = np.column_stack([along + up * (starts // width + 0.5), across]).astype(np.float32)
-        lines = np.repeat(lines, lengths, axis=0).reshape(height, width, 2)
-        shade = lines[:, :, 1] * np.arange(0.5, width, dtype=np.float32)
-        shade += lines[:, :, 0]
-        image = shades[np.clip(shade, 0.0, len(shades) - 1.0, out=shade).astype(np.intp)]
+        image, x = np.empty((height, width), dtype=np.uint32), np.arange(0.5, width, dtype=np.float32)
+        # Strips that fit into a processor's own memory, in single precision: a thousandth of a shade.
+        for top in range(0, height, _STRIP):
+            runs = slice(*np.searchsorted(starts, [width * top, width * (top + _STRIP)]))
+            along, across, up = planes.take(owners[runs], axis=0).T
+            lines = np.column_stack([along + up * (starts[runs] // width + 0.5), across]).astype(np.float32)
+            lines = np.repeat(lines, lengths[runs], axis=0).reshape(-1, width, 2)
+            shade = lines[:, :, 1] * x
+            shade += lines[:, :, 0]
+            np.clip(shade, 0.0, len(shades) - 1.0, out=shade)
+            image[top : top + _STRIP] = shades[shade.astype(np.intp)]
         return image.view(np.uint8).reshape(height, width, 4)
 
 

@@ -104,7 +104,7 @@ def draw_tank(
     _draw_walls(axes, picture, view, pixel, thin)
     # Surfaces of liquids first: a body's ends cover theirs.
     for curve in sorted(surfaces, key=lambda curve: curve.kind == "body"):
-        axes.add_line(_surface(curve.kind, curve.x, view.heights(curve, curve.displacement), thin))
+        axes.add_artist(_surface(curve.kind, curve.x, view.heights(curve, curve.displacement), thin))
     for section in picture.floats:
         opacity = 1.0 if section.slit is None else 0.45
         moved = view.displaced(section)
@@ -184,7 +184,7 @@ def _iso_lines(picture: Same, view: View, limit: float) -> list[Path]:
     """
     mode: ModePicture = picture.thing
     steepness = mode.weight * np.hypot(*mode.displacement.T)
-    steep = mode.triangles[steepness[mode.triangles].max(axis=1) > 0.01 * limit / view.length]
+    steep = mode.triangles[(steepness > 0.01 * limit / view.length)[mode.triangles.T].any(axis=0)]
     if not len(steep):
         return []
     triangles = Triangulation(mode.points[:, 0], view.drawn(mode.points[:, 1]), steep)

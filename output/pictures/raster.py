@@ -86,16 +86,21 @@ class Raster:
         owners, starts = np.insert(owners, places, owners[places - 1]), np.insert(starts, places, rows)
         return owners, starts, np.diff(starts, append=width * height)
 
-    def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
-        """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
-        first, *others = self.points[triangles].transpose(1, 2, 0)
+    @cached_property
+    def _weights(self) -> Array:
+        """Parts of the values at the corners in a, b and c of a + bx + cy on a triangle; shape (triangles, 3, 3)."""
+        first, *others = self.points[self.triangles].transpose(1, 2, 0)
         (x1, y1), (x2, y2) = (other - first for other in others)
-        value, value1, value2 = values[triangles].T
-        rise1, rise2, area = value1 - value, value2 - value, x1 * y2 - x2 * y1
+        area = x1 * y2 - x2 * y1
         # A triangle without an area shows one value.
         area[area == 0.0] = np.inf
-        b, c = (rise1 * y2 - rise2 * y1) / area, (rise2 * x1 - rise1 * x2) / area
-        return np.stack([value - b * first[0] - c * first[1], b, c], axis=1)
+        b, c = np.array([y1 - y2, y2, -y1]) / area, np.array([x2 - x1, -x2, x1]) / area
+        a = np.eye(3)[:, :1] - b * first[0] - c * first[1]
+        return np.ascontiguousarray(np.stack([a, b, c]).transpose(2, 0, 1))
+
+    def _planes(self, values: Array) -> Array:
+        """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
+        return np.einsum("tij,tj->ti", self._weights, values[self.triangles])
 
     def at(self, places: Array, values: Array) -> Array:
         """Interpolate vectors at the points, shape (points, n), to places in pixels; NaN beside the triangles.
@@ -108,8 +113,7 @@ class Raster:
         owners, starts, _ = self._runs
         owner = owners[np.searchsorted(starts, row * self.size[0] + column, side="right") - 1]
         terms = np.column_stack([np.where(owner < 0, np.nan, 1.0), places])
-        planes = (self._planes(self.triangles[owner], component) for component in values.T)
-        return np.column_stack([(plane * terms).sum(axis=1) for plane in planes])
+        return np.column_stack([(self._planes(component)[owner] * terms).sum(axis=1) for component in values.T])
 
     def coloured(self, values: Array, limit: float, colours: Colormap) -> NDArray[np.uint8]:
         """Colour the values at the points, from −limit to limit.
@@ -121,7 +125,7 @@ class Raster:
         # Rounding leaves the ends of the scale by a little. What belongs to no triangle, the last one, is white.
         scale = colours(np.arange(colours.N + _BEYOND), bytes=True)
         shades = np.vstack([scale, _WHITE]).view(np.uint32).ravel()
-        planes = self._planes(self.triangles, 0.5 * colours.N * (1.0 + values / limit))
+        planes = self._planes(0.5 * colours.N * (1.0 + values / limit))
         planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
         width, height = self.size
         owners, starts, lengths = self._runs

@@ -134,7 +134,7 @@ def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
 def saving() -> Iterator[Save]:
     """Write each page in a thread while the next one is drawn: compression leaves Python to others.
 
-    The first error of writing is raised by the next page, or at the end. At most one page waits.
+    Each page waits for the one before, whose error it raises; the end does so for the last one.
     """
     with ThreadPoolExecutor(max_workers=1) as thread:
         last: Future[None] | None = None

@@ -76,7 +76,8 @@ def draw_tank(
     pixel = thin * POINT * view.length / (axes.bbox.width * 72.0 / axes.figure.dpi)
     limit = colour_limit(largest or picture)
     # Whole pixels, up to walls and surfaces; rounding errors do not make another one.
-    (left, base), (right, ceiling) = np.floor(axes.bbox.min + 1e-6).astype(int), np.ceil(axes.bbox.max - 1e-6).astype(int)
+    lower, upper = axes.bbox.get_points().round(6)
+    (left, base), (right, ceiling) = np.floor(lower).astype(int), np.ceil(upper).astype(int)
     raster = _raster(
         Same(picture.points), Same(picture.triangles), replace(view, surface_scale=0.0),
         (int(right - left), int(ceiling - base)),

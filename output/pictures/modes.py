@@ -24,6 +24,7 @@ from hydroelastic.output.pictures.page import (
     WIDTH,
     ColourBar,
     FieldImage,
+    Save,
     new_page,
     pixels,
     place,
@@ -48,7 +49,14 @@ _MARGIN, _SHEET_FOOTER, _SHEET_HEADING, _THIN = 40.0, 100.0, 62.0, 0.62
 _HIGHEST_SHEET = 10_000
 
 
-def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, largest: ModePicture | None = None) -> None:
+def draw_mode(
+    picture: ModePicture,
+    path: Path | str,
+    *,
+    width: int = 1600,
+    largest: ModePicture | None = None,
+    save: Save = save,
+) -> None:
     """Write a mode as one PNG with axes, colour bar and legend.
 
     The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
@@ -58,6 +66,7 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, larg
         path: of the PNG file in an existing folder.
         width: of the image in pixels.
         largest: what gives the scales, if the picture is an instant of a motion; the picture itself by default.
+        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.
@@ -116,7 +125,12 @@ def animate_motion(
 
 
 def draw_overview(
-    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
+    pictures: Sequence[ModePicture],
+    path: Path | str,
+    *,
+    columns: int | None = None,
+    width: int = 1600,
+    save: Save = save,
 ) -> None:
     """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
 
@@ -125,6 +139,7 @@ def draw_overview(
         path: of the PNG file in an existing folder.
         columns: panels in a row; chosen from the shape of the tank by default.
         width: of the image in pixels.
+        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.
@@ -140,7 +155,8 @@ def draw_overview(
         raise ValueError(f"an overview needs at least one column, got {columns}")
     rows = -(-len(pictures) // columns)
     panel = (WIDTH - _MARGIN * (columns + 1)) / columns
-    row = aspect * panel + _SHEET_HEADING
+    # Whole pixels: panels of one size share what is found once.
+    row = np.ceil(aspect * panel) + _SHEET_HEADING
     height = _SHEET_FOOTER + rows * row + 20.0
     figure = new_page(height, min(width, int(_HIGHEST_SHEET * WIDTH / height)))
     tops = [height - 15.0 - (index // columns) * row for index in range(len(pictures))]
@@ -200,6 +216,7 @@ class _Page:
         _label_liquids(axes, densities, view, view.length / drawn_width)
         write_keys(still, keys(names), KEYS)
         self._figure.add_artist(FieldImage(pixels(still), 0, 0))
+        self._figure.patch.set_visible(False)
         name, meaning = ("ρψ", "ρψ ∝ dynamic pressure") if densities else ("ψ", "ψ")
         measure = f"{_UNITS[name]}, {amplitude}"
         self._bar = ColourBar(self._figure, mode_colours(), meaning=meaning, measure=measure)

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib import colormaps, rcParams
@@ -34,6 +36,9 @@ FOOTER, HEADING, KEYS = 285.0, 85.0, 172.0
 """Heights below and above a drawing, for its axis, keys, colours and caption, and for its title; height of the keys."""
 POINT = 0.72
 """Points, in which matplotlib measures strokes and letters, of a pixel."""
+
+Save: TypeAlias = Callable[[NDArray[np.uint8], Path], None]
+"""What writes the pixels of a page."""
 
 _PER_INCH = 72.0 / POINT
 # Letters of DejaVu Sans are so wide in the mean, over their height.
@@ -86,17 +91,19 @@ def pixels(figure: Figure) -> NDArray[np.uint8]:
     """
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
+    # The canvas would be cleared before, though its background, or what covers it all, is drawn.
     with _letters():
-        canvas.draw()
+        figure.draw(canvas.get_renderer())
     return np.asarray(canvas.buffer_rgba())
 
 
 def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
     """The pixels of a page under one title after the other, drawn anew for none of them."""
-    page = pixels(figure)
-    untitled, pages = page.copy(), []
+    page, pages = pixels(figure), []
+    heading = page[: round(HEADING * figure.bbox.width / WIDTH)]
+    untitled = heading.copy()
     for title in titles:
-        page[:] = untitled
+        heading[:] = untitled
         line = write_title(figure, title)
         with _letters():
             figure.draw_artist(line)
@@ -121,6 +128,26 @@ def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
         putchunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
         putchunk(file, b"IDAT", zlib.compress(rows, compression))
         putchunk(file, b"IEND")
+
+
+@contextmanager
+def saving() -> Iterator[Save]:
+    """Write each page in a thread while the next one is drawn: compression leaves Python to others.
+
+    Each page waits for the one before, whose error it raises; the end does so for the last one.
+    """
+    with ThreadPoolExecutor(max_workers=1) as thread:
+        last: Future[None] | None = None
+
+        def save_beside(page: NDArray[np.uint8], path: Path) -> None:
+            nonlocal last
+            if last is not None:
+                last.result()
+            last = thread.submit(save, page, path)
+
+        yield save_beside
+        if last is not None:
+            last.result()
 
 
 @contextmanager

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 _SLACK = 0.05
 # Shades of a scale that has one more at its end, for what rounding takes beyond it.
 _BEYOND = 8
+_STRIP = 32
 _WHITE = np.full(4, 255, dtype=np.uint8)
 
 
@@ -52,43 +53,54 @@ class Raster:
     size: tuple[int, int]
 
     @cached_property
-    def _owners(self) -> NDArray[np.intp]:
-        """The number of the triangle at the middle of each pixel, or −1; shape (height, width)."""
+    def _runs(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """Runs of pixels, row by row, with their middles in one triangle: its number or −1, first pixel, how many."""
         width, height = self.size
-        owners = np.full(width * height, -1, dtype=np.intp)
         # Middles of pixels at whole numbers; corners of each triangle from the uppermost down.
         corners = (self.points - 0.5)[self.triangles]
         corners = np.take_along_axis(corners, np.argsort(corners[:, :, 1], axis=1)[:, :, None], axis=1)
         (x, y), spans = corners.transpose(2, 1, 0), np.diff(corners, axis=1, append=corners[:, :1]).transpose(2, 1, 0)
         slopes = spans[0] / np.where(spans[1] == 0.0, np.inf, spans[1])
-        triangle, row = _ranges(y[0], y[2], height)
+        upper, lower = _within(y[0], y[2], height)
+        rows = lower - upper
+        triangle = np.repeat(np.arange(len(rows)), rows)
+        row = np.arange(len(triangle)) + (lower - np.cumsum(rows))[triangle]
         level = np.clip(row, y[0, triangle], y[2, triangle])
         # The edge from the last corner to the first one passes all rows, each of the others some.
         edge = (level >= y[1, triangle]).astype(np.intp)
         one, other = (x[side, triangle] + slopes[side, triangle] * (level - y[side, triangle]) for side in (edge, 2))
-        left, right = np.minimum(one, other), np.maximum(one, other)
-        stroke, column = _ranges(left, right, width)
-        owners[row[stroke] * width + column] = triangle[stroke]
-        return owners.reshape(height, width)
+        starts, ends = (
+            row * width + column for column in _within(np.minimum(one, other), np.maximum(one, other), width)
+        )
+        # Of those that begin at the same pixel the longest counts, which is the last one.
+        order = np.lexsort((ends, starts))
+        order = order[(starts < ends)[order]]
+        owners, starts, ends = (np.append(first, of[order]) for first, of in ((-1, triangle), (0, starts), (0, ends)))
+        # Triangles share no more pixels than those at their edges: beyond the last end until there is nothing.
+        ends = np.maximum.accumulate(ends)
+        gaps = np.flatnonzero(ends < np.append(starts[1:], width * height))
+        owners, starts = np.insert(owners, gaps + 1, -1), np.insert(starts, gaps + 1, ends[gaps])
+        # Each row begins a run.
+        rows = width * np.arange(1, height)
+        places = np.searchsorted(starts, rows, side="right")
+        owners, starts = np.insert(owners, places, owners[places - 1]), np.insert(starts, places, rows)
+        return owners, starts, np.diff(starts, append=width * height)
 
     @cached_property
-    def _runs(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """Runs of pixels of one triangle in a row: its number, the first pixel and how many."""
-        first = np.ones(self._owners.shape, dtype=bool)
-        first[:, 1:] = self._owners[:, 1:] != self._owners[:, :-1]
-        starts = np.flatnonzero(first)
-        return self._owners.ravel()[starts], starts, np.diff(starts, append=self._owners.size)
-
-    def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
-        """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
-        first, *others = self.points[triangles].transpose(1, 2, 0)
+    def _weights(self) -> Array:
+        """Parts of the values at the corners in a, b and c of a + bx + cy on a triangle; shape (triangles, 3, 3)."""
+        first, *others = self.points[self.triangles].transpose(1, 2, 0)
         (x1, y1), (x2, y2) = (other - first for other in others)
-        value, value1, value2 = values[triangles].T
-        rise1, rise2, area = value1 - value, value2 - value, x1 * y2 - x2 * y1
+        area = x1 * y2 - x2 * y1
         # A triangle without an area shows one value.
         area[area == 0.0] = np.inf
-        b, c = (rise1 * y2 - rise2 * y1) / area, (rise2 * x1 - rise1 * x2) / area
-        return np.stack([value - b * first[0] - c * first[1], b, c], axis=1)
+        b, c = np.array([y1 - y2, y2, -y1]) / area, np.array([x2 - x1, -x2, x1]) / area
+        a = np.eye(3)[:, :1] - b * first[0] - c * first[1]
+        return np.ascontiguousarray(np.stack([a, b, c]).transpose(2, 0, 1))
+
+    def _planes(self, values: Array) -> Array:
+        """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
+        return np.einsum("tij,tj->ti", self._weights, values[self.triangles])
 
     def at(self, places: Array, values: Array) -> Array:
         """Interpolate vectors at the points, shape (points, n), to places in pixels; NaN beside the triangles.
@@ -98,10 +110,10 @@ class Raster:
             values: shape (points, n).
         """
         column, row = np.floor(places).astype(int).T
-        owner = self._owners[row, column]
+        owners, starts, _ = self._runs
+        owner = owners[np.searchsorted(starts, row * self.size[0] + column, side="right") - 1]
         terms = np.column_stack([np.where(owner < 0, np.nan, 1.0), places])
-        planes = (self._planes(self.triangles[owner], component) for component in values.T)
-        return np.column_stack([(plane * terms).sum(axis=1) for plane in planes])
+        return np.column_stack([(self._planes(component)[owner] * terms).sum(axis=1) for component in values.T])
 
     def coloured(self, values: Array, limit: float, colours: Colormap) -> NDArray[np.uint8]:
         """Colour the values at the points, from −limit to limit.
@@ -113,22 +125,25 @@ class Raster:
         # Rounding leaves the ends of the scale by a little. What belongs to no triangle, the last one, is white.
         scale = colours(np.arange(colours.N + _BEYOND), bytes=True)
         shades = np.vstack([scale, _WHITE]).view(np.uint32).ravel()
-        planes = self._planes(self.triangles, 0.5 * colours.N * (1.0 + values / limit))
+        planes = self._planes(0.5 * colours.N * (1.0 + values / limit))
         planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
         width, height = self.size
         owners, starts, lengths = self._runs
-        along, across, up = planes[owners].T
-        shade = np.repeat(across, lengths).reshape(height, width)
-        shade *= np.arange(width) + 0.5
-        shade += np.repeat(along + up * (starts // width + 0.5), lengths).reshape(height, width)
-        image = shades[np.clip(shade, 0.0, len(shades) - 1.0, out=shade).astype(np.intp)]
+        image, x = np.empty((height, width), dtype=np.uint32), np.arange(0.5, width, dtype=np.float32)
+        # Strips that fit into a processor's own memory, in single precision: a thousandth of a shade.
+        for top in range(0, height, _STRIP):
+            runs = slice(*np.searchsorted(starts, [width * top, width * (top + _STRIP)]))
+            along, across, up = planes.take(owners[runs], axis=0).T
+            lines = np.column_stack([along + up * (starts[runs] // width + 0.5), across]).astype(np.float32)
+            lines = np.repeat(lines, lengths[runs], axis=0).reshape(-1, width, 2)
+            shade = lines[:, :, 1] * x
+            shade += lines[:, :, 0]
+            np.clip(shade, 0.0, len(shades) - 1.0, out=shade)
+            image[top : top + _STRIP] = shades[shade.astype(np.intp)]
         return image.view(np.uint8).reshape(height, width, 4)
 
 
-def _ranges(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """All of 0 … count − 1 that lie from low to high, and the places of the ranges to which they belong."""
+def _within(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The first one of 0 … count − 1 that lies from low to high, and the one after the last; the same if none does."""
     first = np.ceil(np.clip(low - _SLACK, 0.0, count)).astype(np.intp)
-    last = np.floor(np.clip(high + _SLACK, -1.0, count - 1.0)).astype(np.intp)
-    lengths = np.maximum(last - first + 1, 0)
-    place = np.repeat(np.arange(len(low)), lengths)
-    return place, np.arange(len(place)) + (first - np.cumsum(lengths) + lengths)[place]
+    return first, np.maximum(np.floor(np.clip(high + _SLACK, -1.0, count - 1.0)).astype(np.intp) + 1, first)

@@ -75,8 +75,9 @@ def draw_tank(
     # Metres of a pixel of the page to which sizes refer.
     pixel = thin * POINT * view.length / (axes.bbox.width * 72.0 / axes.figure.dpi)
     limit = colour_limit(largest or picture)
-    # Whole pixels, up to walls and surfaces.
-    (left, base), (right, ceiling) = np.floor(axes.bbox.min).astype(int), np.ceil(axes.bbox.max).astype(int)
+    # Whole pixels, up to walls and surfaces; rounding errors do not make another one.
+    lower, upper = axes.bbox.get_points().round(6)
+    (left, base), (right, ceiling) = np.floor(lower).astype(int), np.ceil(upper).astype(int)
     raster = _raster(
         Same(picture.points), Same(picture.triangles), replace(view, surface_scale=0.0),
         (int(right - left), int(ceiling - base)),
@@ -104,7 +105,7 @@ def draw_tank(
     _draw_walls(axes, picture, view, pixel, thin)
     # Surfaces of liquids first: a body's ends cover theirs.
     for curve in sorted(surfaces, key=lambda curve: curve.kind == "body"):
-        axes.add_line(_surface(curve.kind, curve.x, view.heights(curve, curve.displacement), thin))
+        axes.add_artist(_surface(curve.kind, curve.x, view.heights(curve, curve.displacement), thin))
     for section in picture.floats:
         opacity = 1.0 if section.slit is None else 0.45
         moved = view.displaced(section)
@@ -184,7 +185,7 @@ def _iso_lines(picture: Same, view: View, limit: float) -> list[Path]:
     """
     mode: ModePicture = picture.thing
     steepness = mode.weight * np.hypot(*mode.displacement.T)
-    steep = mode.triangles[steepness[mode.triangles].max(axis=1) > 0.01 * limit / view.length]
+    steep = mode.triangles[(steepness > 0.01 * limit / view.length)[mode.triangles.T].any(axis=0)]
     if not len(steep):
         return []
     triangles = Triangulation(mode.points[:, 0], view.drawn(mode.points[:, 1]), steep)

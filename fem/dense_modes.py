@@ -20,9 +20,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydroelastic.fem.liquid_answer import LiquidAnswer
+from hydroelastic.fem.liquid_answer import LiquidAnswer, Projection
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.shared_answer import Projection
 
 FEW = 100
 """Measured on OpenBLAS: up to so many unknowns LAPACK finds all eigenvalues sooner than other methods some of them."""

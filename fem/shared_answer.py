@@ -18,15 +18,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.liquid_answer import LiquidAnswer
-
-if TYPE_CHECKING:
-    from hydroelastic.fem.dense_modes import DenseSolution
-    from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.dense_modes import DenseSolution
+from hydroelastic.fem.liquid_answer import LiquidAnswer, Projection
+from hydroelastic.fem.pencil import CoupledPencil
 
 # Gravity modes that are kept for each mode asked for; those of long waves have λ in proportion to their number. Their
 # number is rounded up, so that few bases are made.
@@ -35,27 +32,6 @@ _KEPT, _STEP = 1.5, 16
 _TERMS, _SMALLEST = 4, 1e-8
 # Closer to a gravity mode the elimination of the surfaces loses digits.
 _RESONANT = 1e-6
-
-
-@dataclass(frozen=True, kw_only=True)
-class Projection:
-    """A basis of the surfaces; the unknowns of bodies stay as they are.
-
-    Attributes:
-        basis: scaled unknowns of the surfaces in the basis, orthonormal columns, shape (surface unknowns, vectors).
-        root: R times the basis: unknowns of the surfaces in it.
-        volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
-        projected_volumes: the same in the basis, shape (constraints, vectors).
-        columns: scaled M_a times bodies and basis, shape (n, bodies + vectors).
-        kinetics: scaled M_a projected on them, shape (bodies + vectors, bodies + vectors).
-    """
-
-    basis: np.ndarray
-    root: np.ndarray
-    volumes: np.ndarray
-    projected_volumes: np.ndarray
-    columns: np.ndarray
-    kinetics: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,6 +15,8 @@ from hydroelastic.fem.solver_error import EigenSolverError
 
 # Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
 _FEW = 150
+# Columns that LAPACK eliminates at once.
+_COLUMNS = 64
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
@@ -134,8 +136,9 @@ def _negative(matrix: np.ndarray) -> int | None:
         return None if np.abs(signs).min(initial=np.inf) <= np.finfo(float).eps else int(np.sum(signs < 0.0))
     from scipy.linalg import lapack
 
-    # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.
-    factor, rows, _ = lapack.dsytrf(matrix, lower=1)
+    # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue. In less space
+    # LAPACK would eliminate one column at a time.
+    factor, rows, _ = lapack.dsytrf(matrix, lower=1, lwork=_COLUMNS * len(matrix))
     pivots = np.diag(factor)[rows > 0]
     if np.abs(pivots).min(initial=np.inf) <= np.finfo(float).eps:
         return None

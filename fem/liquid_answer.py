@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
+# Of a smaller triangle the inverse takes less time than its blocks.
+_SMALL = 48
+
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidAnswer:
@@ -57,11 +60,24 @@ def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, restoring: np.
     """
     bodies = len(added_mass) - len(restoring)
     added_mass = 0.5 * (added_mass + added_mass.T)
-    root = np.linalg.inv(np.linalg.cholesky(restoring)).T
+    root = _inverse_of_lower(np.linalg.cholesky(restoring)).T
     scaled = added_mass.copy()
     scaled[:, bodies:] = scaled[:, bodies:] @ root
     scaled[bodies:] = root.T @ scaled[bodies:]
     return LiquidAnswer(potentials=potentials, added_mass=added_mass, root=root, scaled=scaled)
+
+
+def _inverse_of_lower(triangle: np.ndarray) -> np.ndarray:
+    """The inverse of a lower triangle, block by block: NumPy alone would invert it as a full matrix."""
+    size, half = len(triangle), len(triangle) // 2
+    if size <= _SMALL:
+        inverse: np.ndarray = np.linalg.inv(triangle)
+        return inverse
+    first, last = _inverse_of_lower(triangle[:half, :half]), _inverse_of_lower(triangle[half:, half:])
+    inverse = np.zeros((size, size))
+    inverse[:half, :half], inverse[half:, half:] = first, last
+    inverse[half:, :half] = -last @ triangle[half:, :half] @ first
+    return inverse
 
 
 def dense(matrix: PETSc.Mat) -> np.ndarray:

@@ -94,22 +94,33 @@ def _mirrored(beam: FloatingBeam) -> tuple[float, float, bool]:
 def dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> FloatArray:
     """Return the added mass of a dimensionless problem; EI, m and hydrostatics do not enter."""
     centre, half, doubled = _mirrored(beam)
-    orders = np.arange(0, 2 * terms, 2) if doubled else np.arange(terms)
-    points = int(orders[-1]) + 33
-    angle = np.arange(1, points + 1) * np.pi / (points + 1)
-    # √(1−t²) U_j = sin (j+1)φ, and dt = sin φ dφ: the Gauss rule of the second kind.
-    expansion = np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * (np.pi / (points + 1))
+    orders, angle, expansion = _expansion(terms, doubled)
     share = 0.5 if doubled else 1.0
     kernel = _regular_kernel(beam, centre + half * np.cos(angle), doubled)
     weights = share * (orders + 1) * np.pi / 2
     system = np.diag(weights) + (share * half) ** 2 * expansion @ kernel @ expansion.T
-    if doubled:
-        load = half * _half_loads(beam, count, orders)
-    else:
-        # The rule has points enough for the shapes too, as the number of terms grows with theirs.
-        load = half * expansion @ free_free_shapes(count, (1 + np.cos(angle)) / 2).T
+    load = half * (_half_loads(beam, count, orders) if doubled else _loads(terms, count))
     added: FloatArray = load.T @ np.linalg.solve(system, load)
     return (added + added.T) / 2
+
+
+@functools.lru_cache(maxsize=16)
+def _expansion(terms: int, doubled: bool) -> tuple[np.ndarray, FloatArray, FloatArray]:
+    """Orders j, angles φ of the points, and √(1−t²) U_j there times their weights, shape (terms, points)."""
+    orders = np.arange(0, 2 * terms, 2) if doubled else np.arange(terms)
+    points = int(orders[-1]) + 33
+    angle = np.arange(1, points + 1) * np.pi / (points + 1)
+    # √(1−t²) U_j = sin (j+1)φ, and dt = sin φ dφ: the Gauss rule of the second kind.
+    return orders, angle, np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * (np.pi / (points + 1))
+
+
+@functools.lru_cache(maxsize=16)
+def _loads(terms: int, count: int) -> FloatArray:
+    """Return ∫ W_i √(1−t²) U_j dt over a beam between free water, shape (terms, count)."""
+    _, angle, expansion = _expansion(terms, doubled=False)
+    # The rule has points enough for the shapes too, as the number of terms grows with theirs.
+    loads: FloatArray = expansion @ free_free_shapes(count, (1 + np.cos(angle)) / 2).T
+    return loads
 
 
 def _half_loads(beam: FloatingBeam, count: int, orders: np.ndarray) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from pathlib import Path
 
 from mpi4py import MPI
@@ -71,7 +71,7 @@ def write_results(
                 parts(shared)
     elif comm.rank == 0:
         try:
-            with result_folder(out, scene_file=scene_file) as folder:
+            with result_folder(out, scene_file=scene_file) as folder, ExitStack() as drawing:
                 with watch.stage("write"):
                     report("tables")
                     tables(folder)
@@ -85,9 +85,11 @@ def write_results(
                         report("pictures")
                         (folder / "images").mkdir()
                         import_matplotlib()
+                        drawing.enter_context(_saving())
                         try:
                             pictures(folder / "images")
                         except NoRendererError as error:
+                            drawing.close()
                             shutil.rmtree(folder / "images")
                             warnings.append(f"no images: {error}")
                 read_summary(summary)[TIMING].update(watch.seconds)
@@ -96,6 +98,8 @@ def write_results(
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.
                 variables = complete_variables(labelled, summary, kind)
                 write_dataset(folder / DATASET, variables, {**global_attributes(summary), **attributes})
+                # The last page is written beside the dataset.
+                drawing.close()
                 if page is not None:
                     report("page")
                     page(folder, tuple(warnings))
@@ -106,3 +110,10 @@ def write_results(
                 comm.bcast(None)
     raise_on_all(problem, comm)
     return tuple(warnings)
+
+
+def _saving() -> AbstractContextManager[None]:
+    # It needs matplotlib.
+    from hydroelastic.output.pictures.page import saving
+
+    return saving()

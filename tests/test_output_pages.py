@@ -12,16 +12,16 @@ from mode_pictures import pixels, sloshing_picture
 
 from hydroelastic.output.pictures import tank
 from hydroelastic.output.pictures.modes import draw_mode, draw_overview
-from hydroelastic.output.pictures.page import saving
+from hydroelastic.output.pictures.page import save, saving
 
 PAGE = np.random.default_rng(1).integers(0, 256, (300, 400, 4), dtype=np.uint8)
 
 
 def test_pages_written_beside_are_those_written_at_once(tmp_path: Path) -> None:
     picture = sloshing_picture()
-    with saving() as beside:
+    with saving():
         for name, sign in (("one", 1.0), ("other", -1.0)):
-            draw_mode(picture.times(sign), tmp_path / f"{name}_beside.png", width=800, save=beside)
+            draw_mode(picture.times(sign), tmp_path / f"{name}_beside.png", width=800)
     for name, sign in (("one", 1.0), ("other", -1.0)):
         draw_mode(picture.times(sign), tmp_path / f"{name}.png", width=800)
         assert (tmp_path / f"{name}.png").read_bytes() == (tmp_path / f"{name}_beside.png").read_bytes()
@@ -29,9 +29,9 @@ def test_pages_written_beside_are_those_written_at_once(tmp_path: Path) -> None:
 
 def write_beside(*paths: Path, error: Exception | None = None) -> None:
     """Write a page to each path, then fail with an error, if one is given."""
-    with saving() as beside:
+    with saving():
         for path in paths:
-            beside(PAGE, path)
+            save(PAGE, path)
         if error is not None:
             raise error
 

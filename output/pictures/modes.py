@@ -24,7 +24,6 @@ from hydroelastic.output.pictures.page import (
     WIDTH,
     ColourBar,
     FieldImage,
-    Save,
     new_page,
     pixels,
     place,
@@ -55,7 +54,6 @@ def draw_mode(
     *,
     width: int = 1600,
     largest: ModePicture | None = None,
-    save: Save = save,
 ) -> None:
     """Write a mode as one PNG with axes, colour bar and legend.
 
@@ -66,7 +64,6 @@ def draw_mode(
         path: of the PNG file in an existing folder.
         width: of the image in pixels.
         largest: what gives the scales, if the picture is an instant of a motion; the picture itself by default.
-        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.
@@ -130,7 +127,6 @@ def draw_overview(
     *,
     columns: int | None = None,
     width: int = 1600,
-    save: Save = save,
 ) -> None:
     """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
 
@@ -139,7 +135,6 @@ def draw_overview(
         path: of the PNG file in an existing folder.
         columns: panels in a row; chosen from the shape of the tank by default.
         width: of the image in pixels.
-        save: writes the page.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 import numpy as np
 from matplotlib import colormaps, rcParams
@@ -36,9 +37,6 @@ FOOTER, HEADING, KEYS = 285.0, 85.0, 172.0
 """Heights below and above a drawing, for its axis, keys, colours and caption, and for its title; height of the keys."""
 POINT = 0.72
 """Points, in which matplotlib measures strokes and letters, of a pixel."""
-
-Save: TypeAlias = Callable[[NDArray[np.uint8], Path], None]
-"""What writes the pixels of a page."""
 
 _PER_INCH = 72.0 / POINT
 # Letters of DejaVu Sans are so wide in the mean, over their height.
@@ -112,12 +110,21 @@ def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
     return pages
 
 
-def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
-    """Write the pixels of a page as PNG in full colour.
+def save(page: NDArray[np.uint8], path: Path) -> None:
+    """Write the pixels of a page, which are not changed any more, as PNG in full colour; within `saving` beside others.
 
     Rows as they are compress better than the differences that Pillow would choose for each, and in a third of the time.
     They repeat in these pictures: a compression of 4 takes twice as long as 3 and saves 2 %.
     """
+    thread = _THREAD.get()
+    if thread is None:
+        _write(page, path)
+    else:
+        thread.wait()
+        thread.last = thread.pool.submit(_write, page, path)
+
+
+def _write(page: NDArray[np.uint8], path: Path) -> None:
     height, width, _ = page.shape
     # Each row begins with its filter: none.
     rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)
@@ -126,28 +133,40 @@ def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
     with path.open("wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n")
         putchunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-        putchunk(file, b"IDAT", zlib.compress(rows, compression))
+        putchunk(file, b"IDAT", zlib.compress(rows, 3))
         putchunk(file, b"IEND")
 
 
+@dataclass
+class _Thread:
+    """Writes pages one after the other."""
+
+    pool: ThreadPoolExecutor
+    last: Future[None] | None = None
+
+    def wait(self) -> None:
+        """Wait for the last page, and raise its error."""
+        if self.last is not None:
+            self.last.result()
+
+
+_THREAD: ContextVar[_Thread | None] = ContextVar("writes pages", default=None)
+
+
 @contextmanager
-def saving() -> Iterator[Save]:
+def saving() -> Iterator[None]:
     """Write each page in a thread while the next one is drawn: compression leaves Python to others.
 
     Each page waits for the one before, whose error it raises; the end does so for the last one.
     """
-    with ThreadPoolExecutor(max_workers=1) as thread:
-        last: Future[None] | None = None
-
-        def save_beside(page: NDArray[np.uint8], path: Path) -> None:
-            nonlocal last
-            if last is not None:
-                last.result()
-            last = thread.submit(save, page, path)
-
-        yield save_beside
-        if last is not None:
-            last.result()
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        thread = _Thread(pool)
+        before = _THREAD.set(thread)
+        try:
+            yield
+            thread.wait()
+        finally:
+            _THREAD.reset(before)
 
 
 @contextmanager

@@ -84,16 +84,14 @@ def draw_all(shapes: ModeShapes, summary: Reading, folder: Path, options: Pictur
     """
     # Who only wants the fields does without what draws.
     from hydroelastic.output.pictures.modes import animate_mode, draw_mode, draw_overview
-    from hydroelastic.output.pictures.page import saving
 
     drawn = pictures(shapes, summary)
     # The sheet takes the longest to save.
-    with saving() as save:
-        draw_overview(drawn, folder / "overview.png", width=options.width, save=save)
-        for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
-            report(f"picture {number} of {len(drawn)}")
-            file = name if name.startswith("growing") else f"mode_{name}"
-            draw_mode(picture, folder / f"{file}.png", width=options.width, save=save)
+    draw_overview(drawn, folder / "overview.png", width=options.width)
+    for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
+        report(f"picture {number} of {len(drawn)}")
+        file = name if name.startswith("growing") else f"mode_{name}"
+        draw_mode(picture, folder / f"{file}.png", width=options.width)
     for place in animated_modes(summary) if options.animate else ():
         report(f"animation of mode {place + 1}")
         animate_mode(drawn[place], folder / f"mode_{place + 1:03d}.gif", width=options.animation_width)

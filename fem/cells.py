@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-import basix
 import basix.ufl
 import numpy as np
 from dolfinx.mesh import Mesh
@@ -78,15 +77,15 @@ def owned_cells(mesh: Mesh) -> np.ndarray:
 
 
 def _coordinate_basis(mesh: Mesh, reference: np.ndarray, derivatives: int) -> np.ndarray:
-    table: np.ndarray = _coordinate_element(mesh.topology.cell_name(), coordinate_degree(mesh)).tabulate(
-        derivatives, reference
-    )[..., 0]
+    points = np.ascontiguousarray(reference)
+    return _tabulated(mesh.topology.cell_name(), coordinate_degree(mesh), derivatives, points.tobytes(), points.shape)
+
+
+@lru_cache(maxsize=64)
+def _tabulated(cell_name: str, degree: int, derivatives: int, points: bytes, shape: tuple[int, ...]) -> np.ndarray:
+    element = basix.ufl.element("Lagrange", cell_name, degree).basix_element
+    table: np.ndarray = element.tabulate(derivatives, np.frombuffer(points).reshape(shape))[..., 0]
     return table
-
-
-@lru_cache(maxsize=16)
-def _coordinate_element(cell_name: str, degree: int) -> basix.finite_element.FiniteElement:
-    return basix.ufl.element("Lagrange", cell_name, degree).basix_element
 
 
 def cells_at(mesh: Mesh, points: np.ndarray) -> np.ndarray:

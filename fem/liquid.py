@@ -15,7 +15,7 @@ whichever unknown that is.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import basix.ufl
 import numpy as np
@@ -94,7 +94,7 @@ class LiquidSpace:
         """Density ρ of each layer, from the bottom up."""
         return tuple(layer.density for layer in self.layers)
 
-    @property
+    @cached_property
     def owned_layer_of(self) -> np.ndarray:
         """Layer of each unknown that this process owns."""
         return self.layer_of[self.numbering.owned_dofs]

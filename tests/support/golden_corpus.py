@@ -27,7 +27,7 @@ from hydroelastic.scenes.run import run_scene
 REFERENCE = Path(__file__).parents[1] / "reference"
 CASE_FILES = ("floats", "hard_cases", "two_liquid_beams")
 # What differs from run to run, and measures of rounding, of which the size alone means something.
-RUN_DEPENDENT = ("timing", "memory_peak", "versions", "processes", "pairs_converged")
+RUN_DEPENDENT = ("timing", "memory_peak", "memory_of_a_process", "versions", "processes", "pairs_converged")
 MEASURES_OF_ROUNDING = ("residual", "error", "difference")
 ROUNDING = 1e-12
 """Relative to the largest value of an array: beside the errors that are stated."""

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.read import read_scene as read
     from hydroelastic.scenes.read import shipped_scenes
     from hydroelastic.scenes.result import Result, load, solve
+    from hydroelastic.scenes.study.result import Study, study
     from hydroelastic.scenes.sweep.result import Sweep, sweep
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "SceneError",
     "SeaScene",
     "StringScene",
+    "Study",
     "Sweep",
     "Tank",
     "TankScene",
@@ -58,12 +60,14 @@ __all__ = [
     "read",
     "shipped_scenes",
     "solve",
+    "study",
     "sweep",
 ]
 
 _ELSEWHERE = {
     "PictureOptions": "output.pictures.options",
     **dict.fromkeys(("Result", "load", "solve"), "scenes.result"),
+    **dict.fromkeys(("Study", "study"), "scenes.study.result"),
     **dict.fromkeys(("Sweep", "sweep"), "scenes.sweep.result"),
     **dict.fromkeys(("SceneError", "UnsolvedError"), "scenes.errors"),
     **dict.fromkeys(("read", "shipped_scenes"), "scenes.read"),

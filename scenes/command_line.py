@@ -40,7 +40,7 @@ from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
-from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes, title_of_scene
+from hydroelastic.scenes.read import read_scene, shipped_scenes, title_of_scene
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.sweep.command import sweep
 
@@ -257,27 +257,12 @@ def study(
     checked = read_scene(scene, overrides)
     folder = folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
-    from hydroelastic.scenes.models.level_tank import LevelTankScene
-
-    if isinstance(checked, LevelTankScene):
-        from hydroelastic.scenes.study.level_tank import level_study_table, study_level_tank, write_level_study
-
-        with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
-            level = study_level_tank(checked, plan, report=report)
-            if is_first_rank():
-                write_level_study(level, folder, picture_options(formats, dpi=dpi), scene_file=file_of_scene(scene))
-        click.echo(level_study_table(level))
-        click.echo(f"Written to {results_message(folder, replaces=replaces)}")
-        return
-    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
-        from hydroelastic.scenes.study.report import study_table, write_study
-        from hydroelastic.scenes.study.run import study_scene
+        from hydroelastic.scenes.study.result import measured_study
 
-        measured = study_scene(tank, plan, report=report)
-        if is_first_rank():
-            write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=file_of_scene(scene))
-    click.echo(study_table(measured))
+        measured = measured_study(checked, plan, report)
+        measured.save(folder, images=picture_options(formats, dpi=dpi), scene_file=file_of_scene(scene))
+    click.echo(measured.text)
     click.echo(f"Written to {results_message(folder, replaces=replaces)}")
 
 

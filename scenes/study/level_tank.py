@@ -148,7 +148,7 @@ def write_level_study(
     """
     with folder_errors(), result_folder(folder, scene_file=scene_file) as inside:
         (inside / "study.txt").write_text(level_study_table(study) + "\n", encoding="utf-8")
-        (inside / "study.csv").write_text(_csv(study), encoding="utf-8")
+        (inside / "study.csv").write_text(level_study_csv(study), encoding="utf-8")
         _draw(study, Sheets(folder=inside, title=study.scene.title, options=options))
         summary = {
             "scene": study.scene.model_dump(mode="json"),
@@ -165,7 +165,8 @@ def write_level_study(
         (inside / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
-def _csv(study: LevelStudy) -> str:
+def level_study_csv(study: LevelStudy) -> str:
+    """All rows at full precision."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     keys = ("model", "tolerance", "degree", "layers", "poles", "problems", "attempts", "unknowns", "error", "floor")

@@ -1,12 +1,5 @@
 """Error against cost for one scene: uniform and graded meshes, degrees and tolerances, and observed rates.
 
-    from hydroelastic.scenes.read import read_scene
-    from hydroelastic.scenes.study.run import StudyPlan, study_scene
-
-    study = study_scene(read_scene("aquarium"), StudyPlan(families=("uniform",), degrees=(1, 2)))
-    for row in study.rows:
-        print(row.degree, row.element_size, row.unknowns, row.error, row.total_seconds)
-
 See docs/studies.md.
 """
 

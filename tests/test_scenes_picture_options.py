@@ -154,7 +154,8 @@ def test_a_string_at_few_times_is_animated_smoothly(tmp_path: Path, times: str) 
 def test_a_study_takes_formats_and_resolution(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[PictureOptions] = []
     monkeypatch.setattr(study_run, "study_scene", lambda *_things, **_settings: None)
-    monkeypatch.setattr(study_report, "study_table", lambda _study: "")
+    for made in ("study_table", "study_csv"):
+        monkeypatch.setattr(study_report, made, lambda _study: "")
     monkeypatch.setattr(
         study_report, "write_study", lambda _study, _folder, options, **_settings: asked.append(options)
     )

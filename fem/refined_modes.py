@@ -16,7 +16,8 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics, Operator
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.modes import Mode, ModeSet, Products, as_made, completed_mode
+from hydroelastic.fem.mode_set import Mode, ModeSet
+from hydroelastic.fem.modes import Products, as_made, completed_mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report

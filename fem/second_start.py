@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydroelastic.fem.added_mass import CondensedKinetics
-from hydroelastic.fem.modes import ModeSet, Products, as_made, converged_inverses, krylov_schur
+from hydroelastic.fem.mode_set import ModeSet
+from hydroelastic.fem.modes import Products, as_made, converged_inverses, krylov_schur
 from hydroelastic.fem.pencil import CoupledPencil
 
 # Of the Krylov space, and the part of it that is kept: it grows by a product or two at a time, so that none is in vain.

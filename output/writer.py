@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import AbstractContextManager, ExitStack, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from mpi4py import MPI
@@ -85,7 +85,9 @@ def write_results(
                         report("pictures")
                         (folder / "images").mkdir()
                         import_matplotlib()
-                        drawing.enter_context(_saving())
+                        from hydroelastic.output.pictures.page import saving  # needs matplotlib
+
+                        drawing.enter_context(saving())
                         try:
                             pictures(folder / "images")
                         except NoRendererError as error:
@@ -110,10 +112,3 @@ def write_results(
                 comm.bcast(None)
     raise_on_all(problem, comm)
     return tuple(warnings)
-
-
-def _saving() -> AbstractContextManager[None]:
-    # It needs matplotlib.
-    from hydroelastic.output.pictures.page import saving
-
-    return saving()

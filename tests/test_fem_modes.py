@@ -12,7 +12,8 @@ import pytest
 from petsc4py import PETSc
 
 from hydroelastic.fem.inertia import count_below
-from hydroelastic.fem.modes import Mode, solve_modes
+from hydroelastic.fem.mode_set import Mode
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.tank.solve import TankSolution
 

@@ -9,7 +9,8 @@ import pytest
 from volume_tanks import rectangle_in_a_box
 
 from hydroelastic.fem.added_mass import CondensedKinetics
-from hydroelastic.fem.modes import Mode, as_made, solve_modes
+from hydroelastic.fem.mode_set import Mode
+from hydroelastic.fem.modes import as_made, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import ClassModes, solve_classes
 from hydroelastic.fem.refined_modes import refined_modes, residual_bounds

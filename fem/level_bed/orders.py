@@ -24,7 +24,8 @@ from hydroelastic.fem.level_bed.order_problem import LineLiquid, covered_element
 from hydroelastic.fem.level_bed.resolution import LineResolution, line_nodes
 from hydroelastic.fem.level_bed.separation import Separation
 from hydroelastic.fem.level_bed.solution import SampledSurface
-from hydroelastic.fem.modes import Mode, ModeSet, solve_modes
+from hydroelastic.fem.mode_set import Mode, ModeSet
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.modal.plate.line_modes import FEW_MODES, LineModes, PlateLine, dry_modes
 from hydroelastic.physics.arrays import FloatArray

@@ -10,7 +10,7 @@ import numpy as np
 
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
-from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.elastic_tone import ElasticTone

@@ -10,7 +10,7 @@ import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
 from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution

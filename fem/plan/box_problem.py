@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.fem.level_bed.solution import SampledSurface
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.plan.box_pencil import water_columns, water_masses
 from hydroelastic.fem.plan.classes import ClassProblem
 from hydroelastic.fem.plan.rectangle_body import RectangleBody

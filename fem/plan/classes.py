@@ -9,7 +9,8 @@ import numpy as np
 
 from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, Products, as_made, solve_modes
+from hydroelastic.fem.mode_set import Mode, ModeSet
+from hydroelastic.fem.modes import HIDDEN, Products, as_made, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.second_start import lowest_beyond

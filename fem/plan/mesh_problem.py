@@ -12,7 +12,7 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.level_bed.solution import SampledSurface
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.plan.classes import ClassProblem
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, water_unknowns
 from hydroelastic.meshes.geometry import FREE_SURFACE

@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanLiquid, PlanSpace, PoleOperator
 from hydroelastic.fem.spectral_error import cell_errors

@@ -18,7 +18,8 @@ import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.solution import PlateTone
-from hydroelastic.fem.modes import Mode, ModeSet, solve_modes
+from hydroelastic.fem.mode_set import Mode, ModeSet
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass

@@ -12,7 +12,7 @@ import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.solution import shift_above
-from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass
 from hydroelastic.fem.plan.plate_tone import ClassModel, R, released_limits

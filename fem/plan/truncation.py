@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 
 if TYPE_CHECKING:

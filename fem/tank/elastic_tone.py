@@ -15,7 +15,7 @@ from typing import Protocol
 
 import numpy as np
 
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.physics.dofs import Dof
 
@@ -59,7 +59,7 @@ class ElasticTone:
 
 
 class Amplitudes(Protocol):
-    """What is asked of modes, as of `fem.modes.ModeSet`."""
+    """What is asked of modes, as of `fem.mode_set.ModeSet`."""
 
     @property
     def eigenvalues(self) -> np.ndarray:

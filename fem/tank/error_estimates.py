@@ -14,7 +14,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.field_solution import FieldSolution, Origin, Part

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from hydroelastic.fem.inertia import count_below
-from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, solve_modes
+from hydroelastic.fem.mode_set import Mode, ModeSet
+from hydroelastic.fem.modes import HIDDEN, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body, LiquidSurface
@@ -247,12 +248,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
 def _extended(mode: Mode, extension: Extension) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
-    return Mode(
-        eigenvalue=mode.eigenvalue,
-        values=mode.values,
-        displaced=mode.displaced,
-        shaped=mode.shaped,
-        residual=mode.residual,
+    return replace(
+        mode,
         body_amplitudes=extension.amplitudes @ mode.body_amplitudes,
         energy=extension.energies @ mode.energy,
     )

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH
-from hydroelastic.fem.modes import ModeSet
+from hydroelastic.fem.mode_set import ModeSet
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
 from hydroelastic.physics.dofs import Dof

@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.bodies.round_plate import RoundShapes, plate_of
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone, SampledSurface
-from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.surface_line import along_the_surface

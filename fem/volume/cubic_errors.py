@@ -23,7 +23,7 @@ from scipy.sparse import csr_array, vstack
 from hydroelastic.fem.cells import cell_jacobians, is_straight, owned_cells
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import LiquidSpace, as_functions, liquid_space
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.shape_loads import shape_loads

@@ -14,7 +14,8 @@ from dolfinx.fem import petsc as fem_petsc
 from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import ModeSet, Products, solve_modes
+from hydroelastic.fem.mode_set import ModeSet
+from hydroelastic.fem.modes import Products, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
 from hydroelastic.fem.plan.rectangle_body import ClassParity

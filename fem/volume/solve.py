@@ -18,7 +18,8 @@ from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.memory import release_matrices
-from hydroelastic.fem.modes import Mode, Products, as_made
+from hydroelastic.fem.mode_set import Mode
+from hydroelastic.fem.modes import Products, as_made
 from hydroelastic.fem.plan.classes import (
     ClassModes,
     SymmetryClass,

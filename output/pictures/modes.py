@@ -48,13 +48,7 @@ _MARGIN, _SHEET_FOOTER, _SHEET_HEADING, _THIN = 40.0, 100.0, 62.0, 0.62
 _HIGHEST_SHEET = 10_000
 
 
-def draw_mode(
-    picture: ModePicture,
-    path: Path | str,
-    *,
-    width: int = 1600,
-    largest: ModePicture | None = None,
-) -> None:
+def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, largest: ModePicture | None = None) -> None:
     """Write a mode as one PNG with axes, colour bar and legend.
 
     The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
@@ -122,11 +116,7 @@ def animate_motion(
 
 
 def draw_overview(
-    pictures: Sequence[ModePicture],
-    path: Path | str,
-    *,
-    columns: int | None = None,
-    width: int = 1600,
+    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
 ) -> None:
     """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
 

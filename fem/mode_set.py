@@ -1,0 +1,80 @@
+"""Natural modes with their shapes, as the solvers return them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from petsc4py import PETSc
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mode:
+    """One natural mode with its shape, scaled to unit generalized mass.
+
+    Attributes:
+        eigenvalue: λ = ω².
+        values: own surface unknowns ζ of this process.
+        displaced: returns ζ.
+        shaped: returns ψ, its constant included.
+        residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
+        body_amplitudes: the body part of ζ, on every process.
+        energy: share in the potential energy: body unknowns one by one, then each surface of the liquids.
+    """
+
+    eigenvalue: float
+    values: np.ndarray
+    displaced: Callable[[], PETSc.Vec]
+    shaped: Callable[[], PETSc.Vec]
+    residual: float
+    body_amplitudes: np.ndarray
+    energy: np.ndarray
+
+    @cached_property
+    def displacement(self) -> PETSc.Vec:
+        """ζ."""
+        return self.displaced()
+
+    @cached_property
+    def potential(self) -> PETSc.Vec:
+        """ψ, its constant included."""
+        return self.shaped()
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeSet:
+    """The lowest modes, in ascending order, and how they were found.
+
+    Attributes:
+        eigenvalues: λ of all modes found.
+        elastic_amplitudes: body part of each mode at unit generalized mass, free rigid motions left out, shape
+            (modes, body unknowns).
+        modes: the lowest modes with their shapes.
+        completed: returns any other mode with its shape, by index, at the cost of one solution of Laplace's equation
+            (collective).
+        zero_modes: how many motions without stiffness exist (not reported as modes).
+        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
+        converged: number of converged eigenpairs.
+        iterations: restarts of the Krylov–Schur method; LAPACK counts as one.
+        solves: solutions of Laplace's equation; those of a known answer are counted too.
+        projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
+        eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
+        bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
+        cell_errors: see `DenseSolution.cell_errors`.
+    """
+
+    eigenvalues: np.ndarray
+    elastic_amplitudes: np.ndarray
+    modes: tuple[Mode, ...]
+    completed: Callable[[int], Mode]
+    zero_modes: int
+    converged: int
+    iterations: int
+    solves: int
+    growing: tuple[Mode, ...] = ()
+    projection: np.ndarray | None = None
+    eigenvectors: tuple[PETSc.Vec, ...] = ()
+    bounds: np.ndarray | None = None
+    cell_errors: Callable[[list[int]], np.ndarray] | None = None

@@ -75,10 +75,6 @@ class Quantity:
         """Return the value of a record."""
         return _taken(self.key, self.value, record)
 
-    def is_missing(self, record: Any) -> bool:
-        """Return whether a record, a mapping, lacks the key."""
-        return self.value is None and isinstance(record, Mapping) and self.key not in record
-
     def name_behind(self, prefix: str) -> str:
         """Return the name of its variable; "" where other arrays contain it.
 
@@ -198,10 +194,6 @@ class Group:
     def name_behind(self, prefix: str) -> str:
         """Return the prefix of its variables, from that of the group around it."""
         return f"{prefix}_{self.key}".lstrip("_") if self.prefix is None else self.prefix
-
-    def is_missing(self, record: Any) -> bool:
-        """Return whether a record, a mapping, lacks the key."""
-        return self.record is None and isinstance(record, Mapping) and self.key not in record
 
     def of(self, record: Any) -> Any:
         """Return the record or records of the group, from the record of the group around it."""

@@ -58,10 +58,6 @@ class FrequencyErrors:
         """Return the errors times factors, of shape (modes,) or one for all."""
         return FrequencyErrors(**{cause.name: getattr(self, cause.name) * factors for cause in fields(self)})
 
-    def of(self, mode: int) -> FrequencyErrors:
-        """Return the errors of one mode."""
-        return FrequencyErrors(**{cause.name: getattr(self, cause.name)[mode : mode + 1] for cause in fields(self)})
-
     def largest(self, cause: str) -> float:
         """Return the largest error of one cause."""
         return float(getattr(self, cause).max(initial=0.0))

@@ -109,8 +109,8 @@ def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str
 def solve_points(tasks: Sequence[Task], options: PointOptions) -> list[SolvedPoint]:
     """Solve points (collective); what goes wrong with one is kept as its reason.
 
-    All are solved before the first is summarized, so that code stays in the caches of a processor: measured on small
-    tanks, a point takes a fifth less time.
+    All are solved before the first is summarized, so that code stays in the caches of a processor: a sweep of a hundred
+    small tanks takes 3 % less time.
     """
     solutions = [_tried(partial(_solution, task, options)) for task in tasks]
     return [

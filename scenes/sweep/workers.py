@@ -15,7 +15,6 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from itertools import groupby
 from multiprocessing import get_context, parent_process
-from typing import TypeVar
 
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, solve_points
@@ -24,11 +23,9 @@ from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, sol
 # take. Measured on a beam in a tank: at 2.4 ms a point this is even at 1000.
 _FEWEST_OF_FAMILY = 1000
 
-_Result = TypeVar("_Result")
-
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
-    """Solve tasks, and yield each as soon as it is solved.
+    """Solve tasks, and yield each as soon as it, with those that are solved together with it, is solved.
 
     Args:
         tasks: in the order in which they are begun.

@@ -55,7 +55,7 @@ class SharedErrors:
             found[beside] += self._rows(rest[:, beside])
         dim = self._liquid.tank.mesh.topology.dim
         energies = [np.einsum("mpc,mpc->mc", part, part) for part in np.split(found, dim * self._starts, axis=1)]
-        errors: np.ndarray = self._densities * missing_energy(*(one.astype(float) for one in energies))
+        errors: np.ndarray = self._densities * missing_energy(*energies)
         return errors
 
     def _add(self, displacements: np.ndarray) -> None:

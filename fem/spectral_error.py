@@ -70,7 +70,7 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
 def missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, fourth: np.ndarray) -> np.ndarray:
     """Energy of ∇ψ in the degrees from p on, from that in p − 1 … p − 4."""
     # Cells at rest have no energy in any degree.
-    floor = np.finfo(float).tiny
+    floor = np.finfo(last.dtype).tiny
     step, step_before = last / (second + floor), second / (third + floor)
     two_steps = np.sqrt(last / (third + floor))
     decay = np.where(step > 1.0, two_steps, np.maximum(step, two_steps))
@@ -121,8 +121,8 @@ def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], n
 
     def coefficients(values: np.ndarray) -> np.ndarray:
         # One product of matrices for all potentials and cells.
-        reference = np.tensordot(values, table, (2, 2))
-        return np.einsum("cab,mcbj->mcaj", inverse, reference)
+        turned: np.ndarray = inverse @ np.tensordot(values, table, (2, 2))
+        return turned
 
     return coefficients, starts
 

@@ -184,7 +184,11 @@ class Tank:
         return replace(self, bodies=bodies, geometry=replace(self.geometry, order=order))
 
     def scaled(self) -> Tank:
-        """Return the tank in these units."""
+        """Return the tank in these units; it is made once."""
+        return self._scaled
+
+    @cached_property
+    def _scaled(self) -> Tank:
         units = self.units
         layers = tuple(
             Layer(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache, partial
 from math import ceil, pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from hydroelastic.fem.bodies.model import BodyModel
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes, first_bending
 from hydroelastic.physics.beams import Beam
-from hydroelastic.physics.dofs import body_name
+from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.symmetry import Parity
 
 # Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
@@ -43,18 +44,18 @@ class BeamModel(BodyModel):
         part = 1.0 if parity is None else 0.5
         shapes = beam_shapes(beam, count)
         # Two asymmetric beams that are mirror images have mirrored shapes: all count as even.
-        parities, numbers = _parities(shapes.parities, parity)
-        bending = part * shapes.bending[numbers]
+        own = _of_parity(shapes.dofs, shapes.parities, parity)
+        bending = part * shapes.bending[own.numbers]
         return Body(
             surface=body_name(self.index + 1),
-            shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
+            shapes=partial(_shape_at, shapes, piece.start, piece.length, own.numbers),
             wavenumber=shapes.wavenumber,
-            dofs=tuple(shapes.dofs[number] for number in numbers),
-            parities=parities,
-            motions=np.eye(len(numbers)),
+            dofs=own.dofs,
+            parities=own.parities,
+            motions=own.identity,
             stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
             bending_stiffness=bending,
-            mass=part * shapes.mass[numbers][:, numbers],
+            mass=part * shapes.mass[own.numbers[:, None], own.numbers],
         )
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
@@ -91,19 +92,33 @@ class BeamModel(BodyModel):
         return ((first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia,)
 
 
+class _Shapes(NamedTuple):
+    """Some shapes of a beam: their numbers, degrees of freedom, parities and the identity of their number."""
+
+    numbers: np.ndarray
+    dofs: tuple[Dof, ...]
+    parities: tuple[Parity, ...]
+    identity: np.ndarray
+
+
 @lru_cache(maxsize=64)
-def _parities(signs: tuple[int, ...], parity: Parity | None) -> tuple[tuple[Parity, ...], list[int]]:
-    """Parities and numbers of the shapes of one parity, or of all of them."""
+def _of_parity(dofs: tuple[Dof, ...], signs: tuple[int, ...], parity: Parity | None) -> _Shapes:
+    """Return the shapes of one parity, or all of them."""
     parities: list[Parity] = ["symmetric" if sign > 0 else "antisymmetric" for sign in signs]
-    numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
-    return tuple(parities[number] for number in numbers), numbers
+    numbers = np.array([number for number, own in enumerate(parities) if parity in (None, own)], dtype=int)
+    identity = np.eye(len(numbers))
+    for kept in (numbers, identity):
+        kept.flags.writeable = False
+    return _Shapes(
+        numbers, tuple(dofs[number] for number in numbers), tuple(parities[number] for number in numbers), identity
+    )
 
 
 def _shape_at(
     shapes: BeamShapes,
     start: float,
     length: float,
-    numbers: list[int],
+    numbers: np.ndarray,
     points: np.ndarray,
     normals: np.ndarray,
     place: int,

@@ -120,28 +120,27 @@ def mode_kinds(modes: Sequence[Mode], bodies: tuple[Body, ...], surfaces: tuple[
     """Return what has most of the potential energy of each mode: a motion of the bodies ("heave", "pitch", "sway",
     "roll", "elastic"), or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
     """
-    places = _places_by_kind(
+    if not modes:
+        return ()
+    names, of_kind = _shares_by_kind(
         tuple(body.dofs for body in bodies), tuple((surface.above, surface.below) for surface in surfaces)
     )
-    energies = np.array([mode.energy for mode in modes]).reshape(len(modes), sum(map(len, places.values())))
-    shares = np.array([energies[:, own].sum(axis=1) for own in places.values()])
-    names = tuple(places)
-    return tuple(names[place] for place in shares.argmax(axis=0))
+    shares = np.array([mode.energy for mode in modes]) @ of_kind
+    return tuple(names[place] for place in shares.argmax(axis=1))
 
 
 @lru_cache(maxsize=64)
-def _places_by_kind(
+def _shares_by_kind(
     dofs: tuple[tuple[Dof, ...], ...], surfaces: tuple[tuple[int | None, int], ...]
-) -> dict[str, list[int]]:
-    """Where each kind has its shares in the potential energy; of two equal ones the first counts."""
-    places: dict[str, list[int]] = {"sloshing": []}
-    first = sum(map(len, dofs))
-    for place, (above, below) in enumerate(surfaces, first):
-        name = "interface wave" if above is not None else "surface wave" if below else "sloshing"
-        places.setdefault(name, []).append(place)
-    for place, dof in enumerate(dof for own in dofs for dof in own):
-        places.setdefault(dof.kind, []).append(place)
-    return places
+) -> tuple[tuple[str, ...], np.ndarray]:
+    """The kinds, and the matrix that sums shares in the potential energy of each, shape (shares, kinds); of two equal
+    ones the first counts."""
+    of_bodies = [dof.kind for own in dofs for dof in own]
+    of_surfaces = [
+        "interface wave" if above is not None else "surface wave" if below else "sloshing" for above, below in surfaces
+    ]
+    names, kinds = tuple(dict.fromkeys(["sloshing", *of_surfaces, *of_bodies])), of_bodies + of_surfaces
+    return names, np.array([[kind == name for name in names] for kind in kinds], dtype=float)
 
 
 def bending_fractions(modes: Sequence[Mode], bodies: tuple[Body, ...]) -> np.ndarray:

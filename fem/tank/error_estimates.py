@@ -89,15 +89,14 @@ def frequency_errors(
         tank: the dimensionless tank.
         infinite_frequency: whether the solution is that of the infinite-frequency limit.
     """
-    liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     at_tips = _cells_at_tips(solution.mesh, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency)
+    cells, projection = np.empty((len(modes), len(at_tips))), np.zeros(len(modes))
     for number, part in enumerate(solution.parts):
         own = [place for place, (owner, _) in enumerate(origins) if owner == number]
-        cells = _cell_errors(part, [modes[place] for place in own], [origins[place][1] for place in own])
-        liquid[own], tips[own] = _away_and_at(at_tips, cells, solution.mesh.mesh.comm)
-        projection = part.modes.projection
-        if projection is not None:
-            liquid[own] += projection.max(initial=0.0)
+        cells[own] = _cell_errors(part, [modes[place] for place in own], [origins[place][1] for place in own])
+        if part.modes.projection is not None:
+            projection[own] = part.modes.projection.max(initial=0.0)
+    liquid, tips = _away_and_at(at_tips, cells, solution.mesh.mesh.comm)
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
@@ -105,7 +104,7 @@ def frequency_errors(
     lowest = solution.modes.eigenvalues[0] if len(solution.modes.eigenvalues) else np.inf
     # An error of λ is twice that of ω.
     return FrequencyErrors(
-        liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
+        liquid=0.5 * (liquid + projection) + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
         rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * np.abs(values) / lowest,

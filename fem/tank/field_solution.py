@@ -248,8 +248,12 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
 def _extended(mode: Mode, extension: Extension) -> Mode:
     """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
     there."""
-    return replace(
-        mode,
+    return Mode(
+        eigenvalue=mode.eigenvalue,
+        values=mode.values,
+        displaced=mode.displaced,
+        shaped=mode.shaped,
+        residual=mode.residual,
         body_amplitudes=extension.amplitudes @ mode.body_amplitudes,
         energy=extension.energies @ mode.energy,
     )

@@ -8,7 +8,7 @@ them.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -61,17 +61,14 @@ def beam_shapes(beam: Beam, count: int) -> BeamShapes:
 
 @lru_cache(maxsize=256)
 def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
-    alike = _alike_shapes(beam.ends == "guided", beam.length, count)
-    return BeamShapes(
+    alike, rigidity = _alike_shapes(beam.ends == "guided", beam.length, count), beam.flexural_rigidity
+    return replace(
+        alike,
         dofs=beam.dofs(count),
-        parities=alike.parities,
-        deflection=alike.deflection,
-        tabulated=alike.tabulated,
-        moments=lambda x: beam.flexural_rigidity * alike.moments(x),
-        shears=lambda x: beam.flexural_rigidity * alike.shears(x),
-        bending=beam.flexural_rigidity * alike.bending,
+        moments=lambda x: rigidity * alike.moments(x),
+        shears=lambda x: rigidity * alike.shears(x),
+        bending=rigidity * alike.bending,
         mass=beam.mass_per_length * alike.mass,
-        wavenumber=alike.wavenumber,
     )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from hashlib import sha256
 from math import ceil
 from typing import TYPE_CHECKING
@@ -47,31 +46,31 @@ class Family:
 class Families:
     """The families of a sweep, by what their liquid depends on, and by the scenes of the grid."""
 
-    known: dict[str, Family]
+    known: dict[object, Family]
     of_scenes: dict[TankScene, Family]
 
     def of(self, scene: Scene | SceneError) -> Family | None:
         """Return the family of a scene; ``None`` without one."""
-        if isinstance(scene, TankScene) and scene in self.of_scenes:
-            return self.of_scenes[scene]
-        return self.known.get(_liquid_of(scene))
+        if not isinstance(scene, TankScene) or not self.known:
+            return None
+        return self.of_scenes.get(scene) or self.known.get(_liquid_of(scene))
 
 
 def families(scenes: Sequence[Scene | SceneError]) -> Families:
     """Return the families of the scenes of a grid."""
-    members: dict[str, list[TankScene]] = {}
+    members: dict[object, list[TankScene]] = {}
     for scene in scenes:
         if isinstance(scene, TankScene):
             members.setdefault(_liquid_of(scene), []).append(scene)
-    members.pop("", None)
-    known: dict[str, Family] = {}
+    members.pop(None, None)
+    known: dict[object, Family] = {}
     of_scenes: dict[TankScene, Family] = {}
     for liquid, own in members.items():
         if len(own) < _FEWEST:
             continue
         places = _places_of_sample(len(own))
         sample = tuple(own[place] for place in places)
-        family = Family(name=_hash(liquid, *(one.model_dump_json() for one in sample)), sample=sample)
+        family = Family(name=_hash(repr(liquid), *(one.model_dump_json() for one in sample)), sample=sample)
         known[liquid] = family
         for batch, first in enumerate(range(0, len(own), _TOGETHER)):
             batched = range(first, min(first + _TOGETHER, len(own)))
@@ -86,16 +85,15 @@ def _places_of_sample(scenes: int) -> list[int]:
     return [round(number * (scenes - 1) / (count - 1)) for number in range(count)]
 
 
-@lru_cache(maxsize=256)
-def _liquid_of(scene: Scene | SceneError) -> str:
-    """What the liquid of a scene depends on, as a text; "" where it is not shared."""
-    if not isinstance(scene, TankScene) or scene.is_open or scene.mesh is not None or not scene.body:
-        return ""
+def _liquid_of(scene: TankScene) -> object:
+    """What the liquid of a scene depends on; ``None`` where it is not shared."""
+    if scene.is_open or scene.mesh is not None or not scene.body:
+        return None
     from hydroelastic.fem.tank.liquids import liquid_key
     from hydroelastic.scenes.models.physical import physical_tank
 
     key = liquid_key(physical_tank(scene).scaled())
-    return "" if key is None else _hash(repr(key), scene.accuracy.model_dump_json())
+    return None if key is None else (key, scene.accuracy)
 
 
 def _hash(*texts: str) -> str:

@@ -13,7 +13,6 @@ from typing import Any, Literal
 from mpi4py import MPI
 
 from hydroelastic.fem.sweep.mode_vectors import ModeVectors, array_of_text, array_text
-from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES
 from hydroelastic.output.provenance import Summary, versions
 from hydroelastic.output.variables import Variable
@@ -101,9 +100,8 @@ class Task:
 def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
     mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
-    content = [scene.model_dump(mode="json"), options.estimates, options.follow, str(options.pictures or "")]
-    content += [family and family.name, versions()]
-    return sha256(json.dumps(content, sort_keys=True).encode() + mesh).hexdigest()
+    content = [options.estimates, options.follow, str(options.pictures or ""), family and family.name, versions()]
+    return sha256(f"{scene.model_dump_json()}{json.dumps(content, sort_keys=True)}".encode() + mesh).hexdigest()
 
 
 def solve_points(tasks: Sequence[Task], options: PointOptions) -> list[SolvedPoint]:
@@ -148,7 +146,7 @@ def _solved(task: Task, solution: Any, options: PointOptions) -> SolvedPoint:
     return SolvedPoint(
         status="unconverged" if outcome.reasons else "ok",
         reasons=outcome.reasons,
-        summary=json_ready(outcome.summary),
+        summary=outcome.summary,
         arrays=() if run.swept is None else tuple(run.swept(solution)),
         modes=modes,
     )

@@ -39,9 +39,9 @@ def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenval
 
 
 @lru_cache(maxsize=16)
-def elastic_places(dofs: tuple[Dof, ...]) -> list[int]:
+def elastic_places(dofs: tuple[Dof, ...]) -> np.ndarray:
     """Return the places of the elastic degrees of freedom."""
-    return [number for number, dof in enumerate(dofs) if dof.is_elastic]
+    return np.flatnonzero([dof.is_elastic for dof in dofs])
 
 
 def omitted(parts: np.ndarray) -> np.ndarray:

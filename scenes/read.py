@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from pydantic import BaseModel, ValidationError
 
 from hydroelastic.scenes import models
-from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write_line
 from hydroelastic.scenes.overrides import Document, changes_of, override
 from hydroelastic.scenes.program import PROGRAM
+from hydroelastic.scenes.validation_errors import scene_error
 from hydroelastic.scenes.words import nearest, proposal
 
 if TYPE_CHECKING:

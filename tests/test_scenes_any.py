@@ -16,12 +16,13 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_error, shown_value
+from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, shown_value
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import SHIPPED_FOLDER, Scene, read_scene
 from hydroelastic.scenes.tank.check import modelled_tank
+from hydroelastic.scenes.validation_errors import scene_error
 
 # The same examples in every run: a failure is found again.
 REPRODUCIBLE = settings(

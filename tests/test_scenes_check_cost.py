@@ -15,13 +15,13 @@ from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.nearest import Sources
 from hydroelastic.meshes.tank import build_tank_mesh
-from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models import float_rest_checks, floats
 from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_SECTIONS, Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Liquid, Tank
+from hydroelastic.scenes.validation_errors import scene_error
 
 LENGTH = 10.0
 

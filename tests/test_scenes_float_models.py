@@ -10,10 +10,10 @@ import pytest
 from float_scenes import AIR, OIL, SQUARE, WATER, WEDGE, polygon, said, scene
 from pydantic import ValidationError
 
-from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Liquid
+from hydroelastic.scenes.validation_errors import scene_error
 
 BEAM: dict[str, Any] = {"start": 7.0, "length": 2.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 

@@ -15,13 +15,14 @@ from rich.console import Console
 from scene_files import CIRCLE_IN_OPEN_WATER
 
 from hydroelastic.output.check_text import print_check
-from hydroelastic.scenes.errors import SceneError, scene_error
+from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.read import read_scene
+from hydroelastic.scenes.validation_errors import scene_error
 
 WATER: dict[str, Any] = {"density": 1000.0, "depth": 2.0}
 HIGH_OIL: dict[str, Any] = {"density": 800.0, "depth": inf}

@@ -6,8 +6,8 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import BeforeValidator, Field, Strict, model_validator
 
-from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, SparseModel
 from hydroelastic.scenes.models.values import OrElse
 
 _NOTHING = ((0.0, 0.0, 0.0),) * 3

@@ -7,15 +7,9 @@ from typing import Literal
 from pydantic import Field
 
 from hydroelastic.physics.geometry import Geometry
-from hydroelastic.scenes.models.bodies import (
-    MOST_BODIES,
-    MOST_VERTICES,
-    AnyNumber,
-    Float,
-    PositiveNumber,
-    SceneModel,
-)
+from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_VERTICES, Float
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 
 
 class CanalTank(SceneModel):

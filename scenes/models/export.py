@@ -6,8 +6,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field
 
-from hydroelastic.scenes.models.bodies import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.scene_model import PositiveNumber, SceneModel
 
 Format: TypeAlias = Literal["wamit", "bemio", "nemoh", "capytaine"]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import PrivateAttr
 
-from hydroelastic.scenes.models.bodies import SceneModel
+from hydroelastic.scenes.models.scene_model import SceneModel
 
 
 class SceneInFolder(SceneModel):

@@ -7,8 +7,8 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainSerializer, Strict
 
-from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.scene_model import LARGEST, SMALLEST
 
 
 def _from_text(value: Any) -> Any:

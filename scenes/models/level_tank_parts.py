@@ -19,18 +19,11 @@ from pydantic import (
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import plate as physics
-from hydroelastic.scenes.models.bodies import (
-    MOST_BODIES,
-    MOST_VERTICES,
-    AnyNumber,
-    Place,
-    PositiveNumber,
-    SceneModel,
-    SparseModel,
-)
+from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_VERTICES
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.obstacles import GivenBaffle, GivenColumn
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import AnyNumber, Place, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.thin_plates import ThinPlate, one_mass, one_rigidity, ring_has_a_hole
 from hydroelastic.scenes.models.title import Title

@@ -11,8 +11,8 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.obstacles import Baffle, LevelBaffle, VerticalBaffle
 from hydroelastic.physics.plate import Disc, Point, Rectangle
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SparseModel
 
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
 

@@ -19,8 +19,8 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.scenes.models.bodies import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
+from hydroelastic.scenes.models.scene_model import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.time_analyses import Displacement, ImpulseResponse, Motion
 from hydroelastic.scenes.models.values import (

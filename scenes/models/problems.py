@@ -1,4 +1,4 @@
-"""Errors found by the checks of a scene, in the form of pydantic, from which `scenes/errors.py` makes messages."""
+"""Errors found by the checks of a scene, as those of pydantic, of which `scenes/validation_errors.py` makes messages."""
 
 from __future__ import annotations
 

@@ -11,15 +11,9 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.motions import Level, SolidMotion
 from hydroelastic.physics.solids import SolidShape
-from hydroelastic.scenes.models.bodies import (
-    MOST_VERTICES,
-    SUBSTITUTES,
-    AnyNumber,
-    PositiveNumber,
-    SceneModel,
-    motions_differ,
-)
+from hydroelastic.scenes.models.bodies import MOST_VERTICES, SUBSTITUTES, motions_differ
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 
 SOLID_SHAPES: tuple[SolidShape, ...] = get_args(SolidShape)
 

@@ -8,9 +8,9 @@ from math import pi, radians, sqrt
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.roll_parts import RollParts
+from hydroelastic.scenes.models.scene_model import LARGEST
 
 MOST_WAVES = 100_000
 

@@ -9,9 +9,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict
 
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.title import Title
 from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
 

@@ -8,16 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, model_serializer, model_validator
 
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import (
-    LARGEST,
-    MOST_BODIES,
-    AnyNumber,
-    Beam,
-    Float,
-    PositiveNumber,
-    SceneModel,
-    Shape,
-)
+from hydroelastic.scenes.models.bodies import MOST_BODIES, Beam, Float, Shape
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
@@ -30,6 +21,7 @@ from hydroelastic.scenes.models.round_plate_checks import (
     round_plates_keep_apart,
 )
 from hydroelastic.scenes.models.round_plates import SeaPlate
+from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts

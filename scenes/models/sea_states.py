@@ -10,8 +10,8 @@ from pydantic import Field, Strict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.requests import AirGapPoint, SpectrumRequest
-from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.values import MOST_VALUES
 
 if TYPE_CHECKING:

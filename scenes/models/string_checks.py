@@ -7,8 +7,8 @@ from itertools import pairwise
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import LARGEST
 from hydroelastic.scenes.models.string_parts import StringParts
 
 MOST_POINTS = 1_000_000

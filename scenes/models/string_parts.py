@@ -14,9 +14,9 @@ from pydantic import (
     Tag,
 )
 
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.title import Title
 from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, ascending_values, kind_of
 

@@ -18,15 +18,7 @@ from pydantic import (
 from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import (
-    LARGEST,
-    MOST_VERTICES,
-    SMALLEST,
-    AnyNumber,
-    Level,
-    PositiveNumber,
-    SceneModel,
-)
+from hydroelastic.scenes.models.bodies import MOST_VERTICES, Level
 from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyBody, AnyFloat
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
@@ -34,6 +26,7 @@ from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plates import SeaPlate
+from hydroelastic.scenes.models.scene_model import LARGEST, SMALLEST, AnyNumber, PositiveNumber, SceneModel
 
 
 class Tank(SceneModel):

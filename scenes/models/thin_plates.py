@@ -9,8 +9,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field, Strict
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import LARGEST, PositiveNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import LARGEST, PositiveNumber, SparseModel
 
 
 class ThinPlate(SparseModel):

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Strict, Tag
 
-from hydroelastic.scenes.models.bodies import PositiveNumber, SceneModel
+from hydroelastic.scenes.models.scene_model import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.thread_tables import Vector
 from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, ascending_values, kind_of
 

@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict
 
-from hydroelastic.scenes.models.bodies import SceneModel
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
+from hydroelastic.scenes.models.scene_model import SceneModel
 from hydroelastic.scenes.models.thread_analyses import EndMotion, ThreadAnalysis, ThreadMotion
 from hydroelastic.scenes.models.thread_tables import Ends, FlexibleThread, LiquidStream, PointOnThread
 from hydroelastic.scenes.models.title import Title

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.values import NumberFromZero, kind_of
 
 Vector: TypeAlias = tuple[AnyNumber, AnyNumber, AnyNumber]

@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer, model_validator
 
 from hydroelastic.fem.open_water.requests import ImpulseResponseRequest, MotionRequest, RegularWave
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.values import (
     DISTINCT,
     MOST_SWEPT,

@@ -18,9 +18,9 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema
 
-from hydroelastic.scenes.errors import scene_error
-from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, SceneModel
 from hydroelastic.scenes.models.problems import problem, problem_at
+from hydroelastic.scenes.models.scene_model import LARGEST, SMALLEST, SceneModel
+from hydroelastic.scenes.validation_errors import scene_error
 
 MOST_VALUES = 10000
 """Frequencies or times of one analysis."""

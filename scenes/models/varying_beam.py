@@ -14,17 +14,9 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics import varying_beam
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.motions import Level
-from hydroelastic.scenes.models.bodies import (
-    MOST_SECTIONS,
-    BeamJoint,
-    BeamSection,
-    Place,
-    PositiveNumber,
-    SparseModel,
-    physical_joints,
-    physical_sections,
-)
+from hydroelastic.scenes.models.bodies import MOST_SECTIONS, BeamJoint, BeamSection, physical_joints, physical_sections
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.scene_model import Place, PositiveNumber, SparseModel
 
 Table: TypeAlias = Annotated[tuple[tuple[Place, PositiveNumber], ...], Field(min_length=2, max_length=MOST_SECTIONS)]
 

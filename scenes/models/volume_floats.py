@@ -16,9 +16,10 @@ from hydroelastic.physics.plate import Point
 from hydroelastic.physics.revolution import SolidOfRevolution
 from hydroelastic.physics.solid_floats import RIGID_MOTIONS, RigidMotion, SolidFloat, SolidFloatShape
 from hydroelastic.physics.solids import solid_of_revolution
-from hydroelastic.scenes.models.bodies import MOST_VERTICES, AnyNumber, PositiveNumber, SparseModel
+from hydroelastic.scenes.models.bodies import MOST_VERTICES
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import outline_is_beside_the_axis
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SparseModel
 
 if TYPE_CHECKING:
     from hydroelastic.physics.wetted_hulls import WettedHull

@@ -10,13 +10,14 @@ from pydantic import ValidationError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.roll.quadratic import RollIntegrationError
 from hydroelastic.modal.roll.solution import roll_solution
-from hydroelastic.scenes.errors import UnsolvedError, scene_error
+from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.problems import require_fit
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.roll_checks import motion_can_be_followed, rates_are_comparable
 from hydroelastic.scenes.roll.physics import rolling_ship, wave_train
 from hydroelastic.scenes.roll.results import RollResult
 from hydroelastic.scenes.roll.section_file import solved_section
+from hydroelastic.scenes.validation_errors import scene_error
 
 if TYPE_CHECKING:
     from mpi4py import MPI

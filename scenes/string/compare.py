@@ -13,11 +13,12 @@ from hydroelastic.output.provenance import Summary
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.errors import Problem, SceneError, scene_error
+from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.run import run_string
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
+from hydroelastic.scenes.validation_errors import scene_error
 
 # fmt: off
 # A table: as many arguments on a line as fit.

@@ -8,10 +8,11 @@ from typing import Literal, TypeAlias
 from pydantic import ValidationError
 
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.errors import Problem, SceneError, scene_error
+from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.bodies import THIN_SHAPES
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.validation_errors import scene_error
 
 Boundary: TypeAlias = Literal["thin", "exact"]
 

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.validation_errors import scene_error
 
 WEDGE: dict[str, Any] = {"kind": "float", "shape": "wedge", "position": 5.0, "half_width": 0.5, "half_height": 0.4}
 BARGE: dict[str, Any] = {

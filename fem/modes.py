@@ -52,6 +52,7 @@ def solve_modes(
     shapes: int | None = None,
     tolerance: float = 1e-12,
     products: Products = as_made,
+    known: DenseSolution | None = None,
 ) -> ModeSet:
     """Lowest modes of the coupled problem.
 
@@ -65,6 +66,7 @@ def solve_modes(
         shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
         products: of the operator, which may be read instead of made; see `fem.checkpoint`.
+        known: the solution with a shared answer of the liquid, if it was made together with others.
 
     Returns:
         The modes (collective).
@@ -73,7 +75,7 @@ def solve_modes(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if pencil.answer is not None and not len(pencil.unstable):
-        return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance)
+        return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance, known)
     from slepc4py import SLEPc  # slow to import
 
     kinetics = CondensedKinetics(pencil)
@@ -128,13 +130,17 @@ def _visible(inverses: np.ndarray) -> int:
 
 
 def _answered_modes(
-    pencil: CoupledPencil, answer: LiquidAnswer, asked: tuple[int, int | None], tolerance: float
+    pencil: CoupledPencil,
+    answer: LiquidAnswer,
+    asked: tuple[int, int | None],
+    tolerance: float,
+    known: DenseSolution | None,
 ) -> ModeSet:
     """A number of the lowest modes, and their shapes, where the answer of the liquid is known."""
     count, shapes = asked
     count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
     if isinstance(answer, SharedAnswer) and count:
-        shared = answer.known(pencil, count) or solved_together([pencil], answer, count)[0]
+        shared = known or solved_together([pencil], answer, count)[0]
         assert shared.projection is not None
         if shared.projection[:count].max() <= PROJECTED:
             return _mode_set(pencil, answer, shared, min(count, _visible(shared.inverses)), shapes)

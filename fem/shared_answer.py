@@ -21,9 +21,7 @@ from math import ceil
 
 import numpy as np
 
-from hydroelastic.fem.dense_modes import DenseSolution
 from hydroelastic.fem.liquid_answer import LiquidAnswer, Projection
-from hydroelastic.fem.pencil import CoupledPencil
 
 # Gravity modes that are kept for each mode asked for; those of long waves have λ in proportion to their number. Their
 # number is rounded up, so that few bases are made.
@@ -48,7 +46,6 @@ class SharedAnswer(LiquidAnswer):
     volumes: np.ndarray
     cell_errors: Callable[[np.ndarray], np.ndarray] | None
     _projections: dict[int, Projection] = field(default_factory=dict)
-    _solutions: dict[tuple[bytes, bytes], DenseSolution] = field(default_factory=dict)
 
     @cached_property
     def _gravity(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -80,15 +77,6 @@ class SharedAnswer(LiquidAnswer):
             )
         return self._projections[kept]
 
-    def keep(self, pencil: CoupledPencil, solution: DenseSolution) -> None:
-        """Keep a solution until it is asked for."""
-        self._solutions[_bodies_of(pencil)] = solution
-
-    def known(self, pencil: CoupledPencil, count: int) -> DenseSolution | None:
-        """Return the solution that was kept, once, if it has enough modes."""
-        found = self._solutions.pop(_bodies_of(pencil), None)
-        return found if found is not None and len(found.modes.eigenvalues) >= count else None
-
     def eliminated(self, eigenvalues: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Eliminate the surfaces from K − σ(M + M_a), bordered by the constraints.
 
@@ -111,7 +99,3 @@ class SharedAnswer(LiquidAnswer):
             left,
             np.abs(pivots).min(axis=1, initial=np.inf) >= _RESONANT,
         )
-
-
-def _bodies_of(pencil: CoupledPencil) -> tuple[bytes, bytes]:
-    return pencil.body_stiffness.tobytes(), pencil.body_mass.tobytes()

@@ -5,13 +5,14 @@ Modes of the halves are sorted into one ascending list, with the amplitudes of t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from hydroelastic.fem.dense_modes import DenseSolution
 from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.modes import HIDDEN, solve_modes
@@ -158,15 +159,23 @@ def part_models(
     return dict(zip(parities, pencils, strict=True))
 
 
-def solve_parts(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], pencils: PartPencils, count: int) -> FieldSolution:
-    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective).
+def solve_parts(
+    mesh: TankMesh,
+    tank: Tank,
+    shapes: tuple[int, ...],
+    pencils: PartPencils,
+    count: int,
+    known: Mapping[Parity | None, DenseSolution] | None = None,
+) -> FieldSolution:
+    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective); of those
+    that are `known`, each for its `share_of_modes`, the modes are completed.
 
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if None not in pencils:
         shapes = shapes_of_twins(tank, shapes)
-    return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
+    return _merged(mesh, tank, shapes, _solved_parts(pencils, count, known or {}), count)
 
 
 def share_of_modes(parts: int, count: int) -> int:
@@ -175,11 +184,11 @@ def share_of_modes(parts: int, count: int) -> int:
     return count if parts == 1 else count // 2 + 2
 
 
-def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
+def _solved_parts(pencils: PartPencils, count: int, known: Mapping[Parity | None, DenseSolution]) -> list[Part]:
     """Solve each part for its share of the modes, and for more where the shares are not enough."""
     shares = [share_of_modes(len(pencils), count)] * len(pencils)
     parts = [
-        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0, known=known.get(parity)))
         for (parity, pencil), share in zip(pencils.items(), shares, strict=True)
     ]
     while True:

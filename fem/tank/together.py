@@ -12,8 +12,8 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import toned_bodies
+from hydroelastic.fem.dense_modes import DenseSolution
 from hydroelastic.fem.inertia import shared_counts
-from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.shared_modes import CellErrors, solved_together
 from hydroelastic.fem.solver_error import EigenSolverError
@@ -31,6 +31,7 @@ from hydroelastic.fem.tank.field_solution import (
 from hydroelastic.fem.tank.liquids import FirstAttempt, SharedLiquids
 from hydroelastic.fem.tank.released_beam import released_modes
 from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
 
@@ -89,24 +90,24 @@ def _problems(liquids: SharedLiquids, attempt: FirstAttempt) -> tuple[TankMesh, 
 def _fields(attempts: list[FirstAttempt], problems: list[tuple[TankMesh, PartPencils]]) -> list[FieldSolution]:
     """The modes of all, those with one basis for the surfaces at once."""
     counts = [attempt.resolution.modes + 1 for attempt in attempts]
-    alike: dict[object, list[tuple[CoupledPencil, int]]] = {}
-    for (_, pencils), count in zip(problems, counts, strict=True):
+    alike: dict[object, list[tuple[int, Parity | None, int]]] = {}
+    for place, ((_, pencils), count) in enumerate(zip(problems, counts, strict=True)):
         share = share_of_modes(len(pencils), count)
-        for pencil in pencils.values():
+        for parity, pencil in pencils.items():
             assert isinstance(pencil.answer, SharedAnswer)
             key = (id(pencil.answer.projection(share)), *pencil.free_rigid)
-            alike.setdefault(key, []).append((pencil, share))
+            alike.setdefault(key, []).append((place, parity, share))
+    known: list[dict[Parity | None, DenseSolution]] = [{} for _ in problems]
     for group in alike.values():
-        together = [pencil for pencil, _ in group]
+        together = [problems[place][1][parity] for place, parity, _ in group]
         answer = together[0].answer
         assert isinstance(answer, SharedAnswer)
-        for pencil, found in zip(
-            together, solved_together(together, answer, max(share for _, share in group)), strict=True
-        ):
-            answer.keep(pencil, found)
+        found = solved_together(together, answer, max(share for _, _, share in group))
+        for (place, parity, _), solution in zip(group, found, strict=True):
+            known[place][parity] = solution
     return [
-        solve_parts(mesh, attempt.tank, attempt.resolution.shapes, pencils, count)
-        for attempt, (mesh, pencils), count in zip(attempts, problems, counts, strict=True)
+        solve_parts(mesh, attempt.tank, attempt.resolution.shapes, pencils, count, of_parts)
+        for attempt, (mesh, pencils), count, of_parts in zip(attempts, problems, counts, known, strict=True)
     ]
 
 

@@ -1,4 +1,4 @@
-"""Errors found by the checks of a scene, as those of pydantic, of which `scenes/validation_errors.py` makes messages."""
+"""Errors found by the checks of a scene, which pydantic collects and `scenes/validation_errors.py` words."""
 
 from __future__ import annotations
 

@@ -9,20 +9,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from tanks import Tanks
 
 from hydroelastic.fem import modes, shared_answer
-from hydroelastic.fem.inertia import count_below
+from hydroelastic.fem.inertia import count_below, shared_counts
 from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.shared_modes import CellErrors
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank import solve, together
-from hydroelastic.fem.tank.field_solution import PartPencils
+from hydroelastic.fem.tank.error_estimates import frequency_errors
+from hydroelastic.fem.tank.field_solution import PartPencils, solve_parts
 from hydroelastic.fem.tank.liquids import SharedLiquids
 from hydroelastic.fem.tank.solve import shared_liquids, solve_tank
 from hydroelastic.fem.tank.together import attempt_together
@@ -165,6 +168,42 @@ def test_tanks_that_are_attempted_together_are_those_attempted_alone(
         )
         assert found.reasons == expected.reasons
     assert not liquids.begun
+
+
+def test_a_count_that_disagrees_with_modes_solved_together_is_told(
+    tanks: Tanks, liquids: SharedLiquids, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def one_more(*given: Any) -> list[int | None]:
+        return [None if count is None else count + 1 for count in shared_counts(*given)]
+
+    monkeypatch.setattr(together, "shared_counts", one_more)
+    tank = tank_of(tanks, 2e3, 3.0)
+    attempt_together(liquids, [tank], tolerance=TOLERANCE, modes=4)
+    assert liquids.first_attempt(tank, TOLERANCE, 4).counted is False
+
+
+def test_what_a_small_basis_loses_is_in_the_error_estimate(
+    tanks: Tanks, liquids: SharedLiquids, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tank = tank_of(tanks, 2e3, 3.0)
+    whole = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids)
+    # Few gravity modes and the static part of the others, whatever they lose.
+    for name, value in (("_STEP", 1), ("_KEPT", 0.25), ("_TERMS", 1)):
+        monkeypatch.setattr(shared_answer, name, value)
+    monkeypatch.setattr(modes, "PROJECTED", np.inf)
+    small = {part.parity: replace(part.pencil, answer=with_another_basis(part.pencil)) for part in whole.field.parts}
+    coarse = solve_parts(whole.field.mesh, whole.tank, whole.resolution.shapes, small, 4)
+    found = [coarse.modes.completed(number) for number in range(4)]
+    estimates = frequency_errors(coarse, found, coarse.origins, whole.resolution, whole.tank).total
+    errors = np.sqrt(coarse.modes.eigenvalues / whole.modes.eigenvalues[:4]) - 1.0
+    # More than all else that is estimated.
+    assert errors.max() > 10.0 * np.nanmax(whole.relative_errors)
+    assert np.all(estimates >= errors)
+
+
+def with_another_basis(pencil: CoupledPencil) -> SharedAnswer:
+    assert isinstance(pencil.answer, SharedAnswer)
+    return replace(pencil.answer, _projections={})
 
 
 def test_where_one_tank_cannot_be_attempted_each_is_attempted_alone(

@@ -107,6 +107,14 @@ def test_points_of_each_kind_of_tank_are_those_of_single_solutions(
 
 
 @pytest.mark.parametrize(
+    ("key", "values"), [("accuracy.modes", (2, 3, 4, 5)), ("accuracy.tolerance", (1e-3, 1e-4, 1e-5, 1e-6))]
+)
+def test_points_of_other_accuracies_share_no_liquid(key: str, values: tuple[float, ...]) -> None:
+    source = scene_source("aquarium")
+    assert not families([source.scene((), {key: value}) for value in values]).known
+
+
+@pytest.mark.parametrize(
     ("key", "value", "shared"),
     [
         ("body.1.flexural_rigidity", 1e4, True),

@@ -47,7 +47,7 @@ class BeamModel(BodyModel):
         bending = part * shapes.bending[numbers]
         return Body(
             surface=body_name(self.index + 1),
-            shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
+            shapes=partial(_shapes_at, shapes, piece.start, piece.length, numbers),
             wavenumber=shapes.wavenumber,
             dofs=tuple(shapes.dofs[number] for number in numbers),
             parities=parities,
@@ -99,15 +99,14 @@ def _parities(signs: tuple[int, ...], parity: Parity | None) -> tuple[tuple[Pari
     return tuple(parities[number] for number in numbers), numbers
 
 
-def _shape_at(
+def _shapes_at(
     shapes: BeamShapes,
     start: float,
     length: float,
     numbers: list[int],
     points: np.ndarray,
     normals: np.ndarray,
-    place: int,
 ) -> np.ndarray:
     # Quadrature points at the tips may miss them by rounding.
-    upwards: np.ndarray = shapes.deflection(numbers[place], np.clip(points[0] - start, 0.0, length)) * normals[1]
+    upwards: np.ndarray = shapes.deflections(np.clip(points[0] - start, 0.0, length))[numbers] * normals[1]
     return upwards

@@ -16,7 +16,7 @@ from hydroelastic.fem.liquid import (
 )
 from hydroelastic.fem.liquid_answer import LiquidAnswer, liquid_answer
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
-from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil, loads_on_first
+from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil
 from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -101,6 +101,12 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
 
 
 def _body_coupling(of_bodies: list[np.ndarray], laplace: PETSc.Mat) -> PETSc.Mat:
-    """Columns ∫φᵢ q over each body's wetted surface, from `shape_loads` with fluxes."""
-    loads = [load for rows in of_bodies for load in rows[:-1]]
-    return loads_on_first(loads, len(loads), laplace)
+    """Columns ∫φᵢ q over each body's wetted surface, from `shape_loads` with fluxes; they lie on rank 0."""
+    loads = np.concatenate([rows[:-1] for rows in of_bodies])
+    count, own = loads.shape
+    # Few unknowns are at the bodies, and see all of their shapes.
+    wetted = loads.any(axis=0)
+    starts = np.append(0, np.cumsum(count * wetted)).astype(PETSc.IntType)
+    columns = np.tile(np.arange(count, dtype=PETSc.IntType), np.count_nonzero(wetted))
+    sizes = ((own, PETSc.DETERMINE), (count if laplace.comm.rank == 0 else 0, count))
+    return PETSc.Mat().createAIJ(sizes, csr=(starts, columns, loads[:, wetted].T.ravel()), comm=laplace.comm)

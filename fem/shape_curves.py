@@ -127,10 +127,7 @@ def _displaced_beam(tank: Tank, index: int, body: Body, amplitudes: Array) -> Su
     x: Array = np.linspace(piece.start, piece.end, _BEAM_POINTS, dtype=np.float64)
     points = np.vstack([x, np.full_like(x, level.height)])
     upwards = np.vstack([np.zeros_like(x), np.ones_like(x)])
-    displacement = sum(
-        (amplitude * body.shapes(points, upwards, number) for number, amplitude in enumerate(amplitudes)),
-        np.zeros_like(x),
-    )
+    displacement = amplitudes @ body.shapes(points, upwards)
     return SurfaceCurve(kind="body", x=x, displacement=displacement, level=level.height)
 
 

@@ -42,11 +42,11 @@ def shape_loads(liquid: LiquidSpace, body: Body, *, flux: bool = False) -> np.nd
         for corner, own in _by_corner(body, group)
     ]
     if pieces and body.size:
-        # Each shape is evaluated once for all facets.
+        # The shapes are evaluated once for all facets.
         points, normals = (
             np.concatenate(part, axis=1) for part in zip(*((one.points, one.normals) for _, one in pieces), strict=True)
         )
-        values = np.array([body.shapes(points, normals, number) for number in range(body.size)])
+        values = body.shapes(points, normals)
         if flux:
             values = np.vstack([values, np.ones_like(values[:1])])
         stops = np.cumsum([quadrature.points.shape[1] for _, quadrature in pieces])[:-1]

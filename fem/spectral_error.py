@@ -121,8 +121,8 @@ def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], n
 
     def coefficients(values: np.ndarray) -> np.ndarray:
         # One product of matrices for all potentials and cells.
-        turned: np.ndarray = inverse @ np.tensordot(values, table, (2, 2))
-        return turned
+        reference: np.ndarray = np.tensordot(values, table, (2, 2))
+        return inverse @ reference
 
     return coefficients, starts
 

@@ -2,18 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.symmetry import Parity
 
-Shapes = Callable[[NDArray[np.float64], NDArray[np.float64], int], NDArray[np.float64]]
-"""Basis functions of a surface: points (gdim, n), the liquid's outward unit normals there (gdim, n) and the number of
-the function → normal displacement (n,). A surface between two liquids has a side, and a normal, in each."""
+Shapes = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+"""Basis functions of a surface: points (gdim, n) and the liquid's outward unit normals there (gdim, n) → normal
+displacements (functions, n). A surface between two liquids has a side, and a normal, in each."""
+
+
+def rigid_shapes(
+    displacement: Callable[[Any, NDArray[np.float64]], FloatArray],
+    motions: Sequence[Any],
+    turn: NDArray[np.float64],
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return normal displacements by combinations of rigid motions, as `Shapes`.
+
+    Args:
+        displacement: motion and points → displacements (gdim, n).
+        motions: the motions.
+        turn: the combinations as columns, shape (motions, functions).
+        points: see `Shapes`.
+        normals: see `Shapes`.
+    """
+    outwards = [(displacement(motion, points) * normals).sum(axis=0) for motion in motions]
+    shapes: NDArray[np.float64] = turn.T @ np.reshape(outwards, (len(motions), points.shape[1]))
+    return shapes
 
 
 @dataclass(frozen=True, kw_only=True)

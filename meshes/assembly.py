@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]
     _check_areas(outline, joined)
     edges = edges_of(joined.cells)
     on_curves = [edges.find(np.column_stack([chain[:-1], chain[1:]])) for chain in joined.chains]
+    joined, edges = _turned(joined, edges, on_curves)
     sides = [_sides(joined, edges, some, chain) for some, chain in zip(on_curves, joined.chains, strict=True)]
     points, cells = joined.points, joined.cells
     to_cut = [some for some, curve in zip(on_curves, outline.curves, strict=True) if curve.cut]
@@ -119,6 +120,17 @@ def _check_areas(outline: Outline, joined: _Joined) -> None:
         here = areas[joined.regions == index]
         if not (here.min() > 0.0 and abs(here.sum() - area) <= _AREA_ROUNDING * area):
             raise MeshError(f"the triangles of region {region.name!r} overlap or leave gaps: do curves cross?")
+
+
+def _turned(joined: _Joined, edges: Edges, on_curves: list[NDArray[np.int64]]) -> tuple[_Joined, Edges]:
+    """Turn cells so that their first corner is opposite to their edge on a curve, of several on the first one: facets
+    that have the same place in their cells are integrated together."""
+    rank = np.zeros(len(edges.nodes), dtype=np.int64)
+    for number, some in enumerate(reversed(on_curves), start=1):
+        rank[some] = number
+    corners = (np.argmax(rank[edges.places], axis=1)[:, None] + np.arange(3)) % 3
+    cells, places = (np.take_along_axis(array, corners, axis=1) for array in (joined.cells, edges.places))
+    return replace(joined, cells=cells), replace(edges, places=places)
 
 
 def _sides(joined: _Joined, edges: Edges, wanted: NDArray[np.int64], chain: NDArray[np.int64]) -> Sides:

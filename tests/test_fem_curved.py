@@ -64,7 +64,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
     one = np.zeros(1)
     body = Body(
         surface="body_1",
-        shapes=lambda points, normals, _number: values(points, normals),
+        shapes=lambda points, normals: values(points, normals)[None],
         wavenumber=0.0,
         dofs=(Dof("heave"),),
         parities=("symmetric",),
@@ -144,8 +144,8 @@ def neumann_energy(degree: int) -> float:
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution)
     pencil = build_field_model(mesh, tank, degree=degree, shapes=(0,))
 
-    def flux(points: np.ndarray, normals: np.ndarray, _number: int) -> np.ndarray:
-        x, y = GROWTH * points
+    def flux(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+        x, y = GROWTH * points[:, None]
         return GROWTH * np.exp(x) * (np.cos(y) * normals[0] - np.sin(y) * normals[1])
 
     zero = np.zeros(1)

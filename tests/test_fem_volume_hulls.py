@@ -352,7 +352,7 @@ def test_an_unsymmetric_waterplane_couples_heave_roll_and_pitch() -> None:
     assert np.diag(turn) == pytest.approx(np.ones(6))
     assert np.abs(turn - np.eye(6)).max() > 1e-2
     upwards = np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.0]])
-    assert body.shapes(points, upwards, 2) == pytest.approx(turn[2:5, 2] @ np.array(heights))
+    assert body.shapes(points, upwards)[2] == pytest.approx(turn[2:5, 2] @ np.array(heights))
 
 
 def replace_hull(hydrostatics: Hydrostatics) -> SolidFloat:

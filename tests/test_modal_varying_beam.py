@@ -72,7 +72,7 @@ def test_shapes_are_orthogonal_and_couple_in_the_mass_alone() -> None:
     shapes = beam_shapes(TAPERED, 12)
     nodes, weights = np.polynomial.legendre.leggauss(60)
     x = 1.0 + nodes
-    values = np.array([shapes.deflection(number, x) for number in range(12)])
+    values = shapes.deflections(x)
     # The sum of 60 terms near 1, each to rounding.
     assert (values * weights) @ values.T == pytest.approx(2.0 * np.eye(12), abs=1e-11)
     assert (values * weights * TAPERED.mass(x)) @ values.T == pytest.approx(shapes.mass, abs=1e-11)
@@ -115,9 +115,9 @@ def test_mirror_images_have_mirrored_shapes_and_are_known_as_such() -> None:
     x = np.linspace(0.0, 2.0, 11)
     one, other = beam_shapes(TAPERED, 8), beam_shapes(TAPERED.reversed, 8)
     for number in range(8):
-        image = one.parities[number] * one.deflection(number, 2.0 - x)
+        image = one.parities[number] * one.deflections(2.0 - x)[number]
         # Which of both directions is computed is chosen by the means of the sections, here one alone.
-        assert np.abs(np.abs(other.deflection(number, x)) - np.abs(image)).max() < 1e-10
+        assert np.abs(np.abs(other.deflections(x)[number]) - np.abs(image)).max() < 1e-10
 
 
 def test_units_change_nothing() -> None:

@@ -48,7 +48,7 @@ class BeamModel(BodyModel):
         bending = part * shapes.bending[own.numbers]
         return Body(
             surface=body_name(self.index + 1),
-            shapes=partial(_shape_at, shapes, piece.start, piece.length, own.numbers),
+            shapes=partial(_shapes_at, shapes, piece.start, piece.length, own.numbers),
             wavenumber=shapes.wavenumber,
             dofs=own.dofs,
             parities=own.parities,
@@ -114,15 +114,14 @@ def _of_parity(dofs: tuple[Dof, ...], signs: tuple[int, ...], parity: Parity | N
     )
 
 
-def _shape_at(
+def _shapes_at(
     shapes: BeamShapes,
     start: float,
     length: float,
     numbers: np.ndarray,
     points: np.ndarray,
     normals: np.ndarray,
-    place: int,
 ) -> np.ndarray:
     # Quadrature points at the tips may miss them by rounding.
-    upwards: np.ndarray = shapes.deflection(numbers[place], np.clip(points[0] - start, 0.0, length)) * normals[1]
+    upwards: np.ndarray = shapes.deflections(np.clip(points[0] - start, 0.0, length))[numbers] * normals[1]
     return upwards

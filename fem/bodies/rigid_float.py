@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, rigid_shapes
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.floats import RigidFloat, dof_of_motion
 from hydroelastic.physics.motions import PLACES, Motion
@@ -61,7 +61,9 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
     turn, stiffness, inertia = principal_motions(body, motions)
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_thin_shape if body.hull.is_thin else _exact_shape, body, motions, turn),
+        shapes=partial(_thin_shapes, body, motions, turn)
+        if body.hull.is_thin
+        else partial(rigid_shapes, body.displacement, motions, turn),
         wavenumber=0.0,
         dofs=tuple(map(dof_of_motion, motions)),
         parities=tuple(map(motion_parity, motions)),
@@ -113,29 +115,12 @@ def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:
     return np.array([[hull.waterplane[0], y] for y in hull.slit])
 
 
-def _exact_shape(
+def _thin_shapes(
     body: RigidFloat,
     motions: tuple[Motion, ...],
     turn: NDArray[np.float64],
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
-    number: int,
-) -> NDArray[np.float64]:
-    displacement = sum(
-        (factor * body.displacement(motion, points) for factor, motion in zip(turn[:, number], motions, strict=True)),
-        np.zeros_like(points),
-    )
-    outwards: NDArray[np.float64] = (displacement * normals).sum(axis=0)
-    return outwards
-
-
-def _thin_shape(
-    body: RigidFloat,
-    motions: tuple[Motion, ...],
-    turn: NDArray[np.float64],
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    number: int,
 ) -> NDArray[np.float64]:
     """The flux through the contour x = x₀ ± ω(y), applied on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
     profile = body.hull.profile
@@ -144,4 +129,4 @@ def _thin_shape(
     # The liquid on the right has its normal to the left, and the contour to the right.
     on_contour = np.array([points[0] - normals[0] * profile.half_width_at(y), points[1]])
     flux = np.array([normals[0], profile.slope_at(y)])
-    return _exact_shape(body, motions, turn, on_contour, flux, number)
+    return rigid_shapes(body.displacement, motions, turn, on_contour, flux)

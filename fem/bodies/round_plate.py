@@ -47,7 +47,7 @@ class RoundPlateModel(BodyModel):
         restoring = float(plate.hydrostatic) * self.tank.level_of(self.index).jump * squares
         return Body(
             surface=body_name(self.index + 1),
-            shapes=_Upwards(shapes),
+            shapes=lambda points, normals: shapes.values(points[0]) * normals[1],
             wavenumber=pi * shapes.count / (plate.radius - plate.inner_radius),
             dofs=shapes.dofs,
             parities=(symmetric,) * shapes.count,
@@ -201,18 +201,3 @@ def plate_of(body: object) -> RoundPlate:
     """Return a body that is a round plate."""
     assert isinstance(body, RoundPlate)
     return body
-
-
-class _Upwards:
-    """Normal displacements by shapes, all of which are evaluated together at the same points."""
-
-    def __init__(self, shapes: RoundShapes) -> None:
-        self._shapes = shapes
-        self._points: NDArray[np.float64] = np.empty((0, 0))
-        self._values: NDArray[np.float64] = self._points
-
-    def __call__(self, points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
-        if points is not self._points:
-            self._points, self._values = points, self._shapes.values(points[0])
-        upwards: NDArray[np.float64] = self._values[number] * normals[1]
-        return upwards

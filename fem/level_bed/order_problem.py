@@ -7,10 +7,9 @@ functions of depth, so that frequencies come from above.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from petsc4py import PETSc
 from scipy.linalg import solve
 from scipy.sparse import csr_matrix
@@ -168,7 +167,7 @@ def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
     even: Parity = "symmetric"
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_shape_at, shapes),
+        shapes=lambda points, _normals: np.asarray(shapes.values(points[0]).T, dtype=np.float64),
         wavenumber=float(shapes.eigenvalues[-1] ** 0.25),
         dofs=_dofs(shapes),
         parities=(even,) * shapes.count,
@@ -186,12 +185,6 @@ def _dofs(shapes: LineModes) -> tuple[Dof, ...]:
     motions = ("heave", "pitch") if plate.transverse_is_zero and not held else ("pitch",)
     elastic = (Dof.elastic(number + 1) for number in range(shapes.count - shapes.rigid))
     return (*map(Dof, motions[: shapes.rigid]), *elastic)
-
-
-def _shape_at(
-    shapes: LineModes, points: NDArray[np.float64], _normals: NDArray[np.float64], number: int
-) -> NDArray[np.float64]:
-    return np.asarray(shapes.values(points[0])[:, number], dtype=np.float64)
 
 
 def _loads(line: Line, elements: np.ndarray, shapes: LineModes) -> FloatArray:

@@ -54,8 +54,7 @@ class WettedSurface:
         self._weights = np.concatenate([np.empty(0), *weights]) * densities[self.layers]
         columns, upright = self.points.T, self.normals.T
         # Shapes are not asked for at no points, where a process has none.
-        sampled = [body.shapes(columns, upright, number) for number in range(body.size) if len(self.points)]
-        self.shapes = np.array(sampled).reshape(body.size, len(self.points))
+        self.shapes = body.shapes(columns, upright) if len(self.points) else np.empty((body.size, 0))
 
     def loads(self, fluxes: np.ndarray) -> np.ndarray:
         """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)

@@ -88,7 +88,7 @@ def _body(
     parities: tuple[Parity, ...] = tuple("symmetric" for _ in squares)
     return Body(
         surface=body_name(index + 1),
-        shapes=lambda points, _normals, number: deflection(points[:2])[number],
+        shapes=lambda points, _normals: deflection(points[:2]),
         wavenumber=0.0,
         dofs=dofs,
         parities=parities,

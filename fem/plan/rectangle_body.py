@@ -97,7 +97,7 @@ class RectangleBody:
         )
         return Body(
             surface=body_name(self.index + 1),
-            shapes=self._shape_at,
+            shapes=lambda points, _normals: self.deflection(points),
             wavenumber=float(self._stiffness.max(initial=0.0) ** 0.25),
             dofs=self._dofs,
             parities=parities,
@@ -112,10 +112,6 @@ class RectangleBody:
         middle = np.array(self.outline.position)[:, None]
         whole = RectangleModes(size=self.outline.size, stiffness=self._stiffness, coefficients=self.coefficients)
         return whole.deflection(*(points[:2] - middle))
-
-    def _shape_at(self, points: NDArray[np.float64], _normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
-        values: NDArray[np.float64] = self.deflection(points)[number]
-        return values
 
 
 def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity: ClassParity) -> RectangleBody:

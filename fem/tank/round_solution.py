@@ -86,12 +86,12 @@ class OrderProblem:
         tank = self.solution.tank
         if index not in tank.floats:
             points, upwards = np.vstack([r, np.zeros_like(r)]), np.array([[0.0], [1.0]])
-            shapes: list[np.ndarray] = [body.shapes(points, upwards, number) for number in range(body.size)]
+            shapes = body.shapes(points, upwards)
         else:
             middle = tank.floats[index].hydrostatics.centre_of_mass[0]
             rigid = {"heave": np.ones_like(r), "pitch": r, "roll": r - middle}
-            shapes = [rigid.get(dof.motion, np.zeros_like(r)) for dof in body.dofs]
-        raised: FloatArray = np.reshape(shapes, (body.size, len(r))).T @ (body.motions @ amplitudes)
+            shapes = np.reshape([rigid.get(dof.motion, np.zeros_like(r)) for dof in body.dofs], (body.size, len(r)))
+        raised: FloatArray = shapes.T @ (body.motions @ amplitudes)
         return raised
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.plan.rectangle_body import ClassParity
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, rigid_shapes
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.solid_floats import RigidMotion, SolidFloat
@@ -44,18 +46,9 @@ def float_body(solid: SolidFloat, name: str, parity: ClassParity) -> Body:
     inertia = solid.inertia()[chosen]
     turn = _principal(solid.stiffness()[np.ix_(chosen, chosen)], inertia)
 
-    def shape(points: NDArray[np.float64], normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
-        displacements = (
-            factor * solid.displacement(motion, points)
-            for factor, motion in zip(turn[:, number], motions, strict=True)
-            if factor
-        )
-        outwards: NDArray[np.float64] = (sum(displacements, np.zeros_like(points)) * normals).sum(axis=0)
-        return outwards
-
     return Body(
         surface=name,
-        shapes=shape,
+        shapes=partial(rigid_shapes, solid.displacement, motions, turn),
         wavenumber=0.0,
         dofs=tuple(map(Dof, motions)),
         parities=parities,

@@ -33,7 +33,7 @@ class BeamShapes:
     Attributes:
         dofs: degree of freedom of each.
         parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
-        deflection: number of the shape and distances from the left end → w.
+        deflections: distances from the left end → w of all shapes, shape (shapes, points).
         tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
             shape (shapes, points); of free ends.
         moments: the same points → bending moments EI w″ of all shapes, shape (shapes, points).
@@ -45,7 +45,7 @@ class BeamShapes:
 
     dofs: tuple[Dof, ...]
     parities: tuple[int, ...]
-    deflection: Callable[[int, Array], Array]
+    deflections: Callable[[Array], Array]
     tabulated: Callable[[Array, int], Array]
     moments: Callable[[Array], Array]
     shears: Callable[[Array], Array]
@@ -79,7 +79,8 @@ def _alike_shapes(guided: bool, length: float, count: int) -> BeamShapes:
 
     def deflections(x: Array) -> Array:
         if guided:
-            return np.array([guided_shape(number, x / length) for number in range(count)], dtype=np.float64)
+            values = [guided_shape(number, x / length) for number in range(count)]
+            return np.array(values, dtype=np.float64).reshape(count, len(x))
         return np.asarray(free_free_shapes(count, x / length), dtype=np.float64)
 
     def tabulated(x: Array, derivative: int) -> Array:
@@ -89,7 +90,7 @@ def _alike_shapes(guided: bool, length: float, count: int) -> BeamShapes:
     return BeamShapes(
         dofs=(),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
-        deflection=_AllAtOnce(deflections),
+        deflections=_AtLastPoints(deflections),
         tabulated=tabulated,
         moments=lambda x: tabulated(x, 2),
         shears=lambda x: tabulated(x, 3),
@@ -115,7 +116,7 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
         dofs=modes.dofs,
         parities=modes.parities,
         # Lengths in units of the tank end within rounding of each other.
-        deflection=_AllAtOnce(lambda x: scale * modes.shapes(np.minimum(x, length))),
+        deflections=_AtLastPoints(lambda x: scale * modes.shapes(np.minimum(x, length))),
         tabulated=lambda x, derivative: scale * modes.shapes(np.clip(x, 0.0, modes.beam.length), derivative),
         moments=lambda x: scale * modes.bending_moments(np.clip(x, 0.0, modes.beam.length)),
         shears=lambda x: scale * modes.shear_forces(np.clip(x, 0.0, modes.beam.length)),
@@ -125,21 +126,20 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     )
 
 
-class _AllAtOnce:
-    """Evaluates all shapes at some points for the first of them: one is asked for after the other."""
+class _AtLastPoints:
+    """Keeps the values at the last points: both halves of a symmetric tank ask for them at the same ones."""
 
     def __init__(self, deflections: Callable[[Array], Array]) -> None:
         self._deflections = deflections
         self._points: Array | None = None
         self._values: Array = np.empty((0, 0))
 
-    def __call__(self, number: int, x: Array) -> Array:
+    def __call__(self, x: Array) -> Array:
         # Also at no points, where a process has none, there are as many shapes.
         if self._points is None or not np.array_equal(x, self._points):
             self._values = self._deflections(x)
             self._points = x.copy()
-        values: Array = self._values[number]
-        return values
+        return self._values
 
 
 def uniform_mass_modes(beam: Beam, count: int) -> JointedModes:

@@ -55,7 +55,9 @@ def raw_problem(scene: TankScene, pencil: CoupledPencil) -> PlainProblem:
     count = len(MOTIONS)
     raw = Body(
         surface=pencil.bodies[0].surface,
-        shapes=lambda points, normals, n: (floating.displacement(MOTIONS[n], points) * normals).sum(axis=0),
+        shapes=lambda points, normals: np.array(
+            [(floating.displacement(motion, points) * normals).sum(axis=0) for motion in MOTIONS]
+        ),
         wavenumber=0.0,
         dofs=tuple(map(Dof, MOTIONS)),
         parities=tuple(map(motion_parity, MOTIONS)),

@@ -55,8 +55,9 @@ class LevelPiece:
 
     def wavenumber(self, squared_frequency: float) -> float:
         """The wavenumber k at λ, to 1e-9 of it; zero where even the longest wave has a larger λ."""
-        found = _where_reached(self.squared_frequency, squared_frequency, (_LEAST, _LARGEST), 1e-9)
-        return found if found > _LEAST else 0.0
+        if self.squared_frequency(_LEAST) >= squared_frequency:
+            return 0.0
+        return _where_reached(self.squared_frequency, squared_frequency, (_LEAST, _LARGEST), 1e-9)
 
 
 def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:

@@ -87,6 +87,13 @@ class CellMatrices:
         straight, plane = is_straight(self.numbering.space.mesh), self.geometry.kind == "plane"
         return (0 if straight else CURVED_QUADRATURE) + (0 if plane else _TRANSVERSE_QUADRATURE)
 
+    @cached_property
+    def straight(self) -> tuple[np.ndarray, np.ndarray]:
+        """J⁻¹ of each cell, shape (cells, dim, dim), and |det J|; of straight cells."""
+        mesh = self.numbering.space.mesh
+        jacobian = cell_jacobians(mesh, owned_cells(mesh), np.zeros((1, mesh.topology.dim)))[:, 0]
+        return np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
+
     def integrals(self, cells: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """Return ∫(Σᵢ wᵢ ∂ᵢψ ∂ᵢq + w ψq) over some cells, the unknowns before those inside.
 
@@ -101,9 +108,8 @@ class CellMatrices:
         order, dim = tuple(map(int, (*self.numbering.outside, *self.numbering.inside))), mesh.topology.dim
         if not more:
             reference = _reference_laplace(element.cell_type, element.degree, order)
-            jacobian = cell_jacobians(mesh, cells, np.zeros((1, dim)))[:, 0]
-            inverse = np.linalg.inv(jacobian)
-            metric = np.abs(np.linalg.det(jacobian))[:, None, None] * (inverse * weights @ inverse.transpose(0, 2, 1))
+            inverse, measure = (part[cells] for part in self.straight)
+            metric = measure[:, None, None] * (inverse * weights @ inverse.transpose(0, 2, 1))
             full = metric.reshape(len(cells), -1) @ reference
             return full.reshape(len(cells), len(order), len(order))
         slopes, shares = _slopes(element.cell_type, element.degree, order, more)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,7 +14,7 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.solver_error import EigenSolverError
 
-# Measured: SciPy's import takes longer than the eigenvalues of so small a matrix.
+# Measured: unless SciPy is there already, its import takes longer than the eigenvalues of so small a matrix.
 _FEW = 150
 # Columns that LAPACK eliminates at once.
 _COLUMNS = 64
@@ -131,7 +132,7 @@ def shared_counts(
 
 def _negative(matrix: np.ndarray) -> int | None:
     """Number of negative eigenvalues of a symmetric matrix; ``None`` where one is zero to working precision."""
-    if len(matrix) <= _FEW:
+    if len(matrix) <= _FEW and "scipy.linalg" not in sys.modules:
         signs = np.linalg.eigvalsh(matrix)
         return None if np.abs(signs).min(initial=np.inf) <= np.finfo(float).eps else int(np.sum(signs < 0.0))
     from scipy.linalg import lapack

@@ -316,8 +316,12 @@ class LiquidSolver:
         # Few unknowns are on the moving surfaces.
         moving = [np.arange(len(values))[layer.dofs][layer.load != 0.0] for layer in self._closed]
         loads = [layer.load[layer.load != 0.0] / layer.measure for layer in self._closed]
+        flux, one = coupling.createVecs()
         for layer, places, load in zip(self._closed, moving, loads, strict=True):
-            values[places] -= np.outer(load, values[layer.dofs].sum(axis=0))
+            one.set(0.0)
+            one.array[layer.dofs] = 1.0
+            coupling.multTranspose(one, flux)
+            values[places] -= np.outer(load, flux.array_r)
         values[self._held] = 0.0
         answers = np.empty(values.shape, order="F")
         result = PETSc.Mat().createDense(answers.shape, array=answers, comm=PETSc.COMM_SELF)

@@ -17,7 +17,6 @@ from hydroelastic.fem.liquid import (
 from hydroelastic.fem.liquid_answer import LiquidAnswer, liquid_answer
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil
-from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
 # Measured on one process: up to so many surface unknowns the answers to all of them at once, and dense linear algebra
@@ -30,6 +29,7 @@ def build_pencil(
     matrices: LiquidMatrices,
     *,
     bodies: tuple[Body, ...],
+    of_bodies: list[np.ndarray],
     surfaces: tuple[LiquidSurface, ...],
 ) -> CoupledPencil[LiquidSpace]:
     """Assemble the coupled problem.
@@ -38,6 +38,7 @@ def build_pencil(
         liquid: space of the potential.
         matrices: A on that space, and the blocks of the surfaces.
         bodies: the floating bodies.
+        of_bodies: the loads of each on ψ, as of `loads_with_fluxes`.
         surfaces: those of the liquids that move under gravity: free surface and interface.
 
     Returns:
@@ -45,7 +46,6 @@ def build_pencil(
     """
     laplace = matrices.laplace
     layers = closed_layers(liquid)
-    of_bodies = [shape_loads(liquid, body, flux=True) for body in bodies]
     fluxes = {body.surface: loads[-1] for body, loads in zip(bodies, of_bodies, strict=True)}
     load = surface_fluxes(liquid, matrices, surfaces, tuple(fluxes.values())) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
@@ -101,7 +101,7 @@ def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | No
 
 
 def _body_coupling(of_bodies: list[np.ndarray], laplace: PETSc.Mat) -> PETSc.Mat:
-    """Columns ∫φᵢ q over each body's wetted surface, from `shape_loads` with fluxes; they lie on rank 0."""
+    """Columns ∫φᵢ q over each body's wetted surface, from `loads_with_fluxes`; they lie on rank 0."""
     loads = np.concatenate([rows[:-1] for rows in of_bodies])
     count, own = loads.shape
     # Few unknowns are at the bodies, and see all of their shapes.

@@ -114,7 +114,7 @@ def numbered(space: fem.FunctionSpace, *, condensed: bool) -> Numbering:
     element, index_map = space.element.basix_element, space.dofmap.index_map
     everything = np.arange(element.dim)
     inside = np.array(element.entity_dofs[-1][0] if condensed else [], dtype=np.int64)
-    outside = np.setdiff1d(everything, inside)
+    outside = np.delete(everything, inside)
     local = index_map.size_local + index_map.num_ghosts
     is_unknown = np.ones(local, dtype=bool)
     is_unknown[space.dofmap.list[:, inside]] = False

@@ -7,7 +7,7 @@ follows the shortest wave among the shapes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil
 
@@ -35,20 +35,28 @@ def shape_loads(liquid: LiquidSpace, body: Body, *, flux: bool = False) -> np.nd
     Returns:
         ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
     """
-    loads = np.zeros((body.size + flux, len(liquid.layer_of)))
+    loads, *_ = loads_with_fluxes(liquid, (body,))
+    return loads if flux else loads[:-1]
+
+
+def loads_with_fluxes(liquid: LiquidSpace, bodies: Sequence[Body]) -> list[np.ndarray]:
+    """Return `shape_loads` with fluxes of bodies that have one wetted surface in common, as the symmetric and the
+    antisymmetric shapes of one have: its facets are gone through once (collective)."""
+    first = bodies[0]
+    wavenumber = max(body.wavenumber for body in bodies)
+    sizes = [body.size for body in bodies]
+    loads = np.zeros((sum(sizes) + 1, len(liquid.layer_of)))
     pieces = [
-        (own, facet_quadrature(liquid, own, body.wavenumber, int(corner)))
-        for group in facet_groups(liquid, body.surface)
-        for corner, own in _by_corner(body, group)
+        (own, facet_quadrature(liquid, own, wavenumber, int(corner)))
+        for group in facet_groups(liquid, first.surface)
+        for corner, own in _by_corner(first, group)
     ]
-    if pieces and body.size:
+    if pieces:
         # The shapes are evaluated once for all facets.
         points, normals = (
             np.concatenate(part, axis=1) for part in zip(*((one.points, one.normals) for _, one in pieces), strict=True)
         )
-        values = body.shapes(points, normals)
-        if flux:
-            values = np.vstack([values, np.ones_like(values[:1])])
+        values = np.vstack([*(body.shapes(points, normals) for body in bodies), np.ones((1, points.shape[1]))])
         stops = np.cumsum([quadrature.points.shape[1] for _, quadrature in pieces])[:-1]
         for (group, quadrature), own in zip(pieces, np.split(values, stops, axis=1), strict=True):
             # Others vanish on the facet.
@@ -56,7 +64,8 @@ def shape_loads(liquid: LiquidSpace, body: Body, *, flux: bool = False) -> np.nd
             basis = potential_basis(liquid, quadrature.reference)[:, places]
             parts = quadrature.weights * own.reshape(-1, *quadrature.weights.shape) @ basis
             np.add.at(loads.T, liquid.space.dofmap.list[group.cells][:, places], parts.transpose(1, 2, 0))
-    return liquid.numbering.summed(loads)
+    *of_bodies, flux = np.split(liquid.numbering.summed(loads), np.cumsum(sizes))
+    return [np.vstack([own, flux]) for own in of_bodies]
 
 
 def _by_corner(body: Body, group: FacetGroup) -> Iterator[tuple[int, FacetGroup]]:

@@ -35,8 +35,6 @@ LOWEST_DEGREE = 4
 _CONTINUITY = 2.0
 # A step this much steeper than the one before is that of a ψ that is nearly even or odd in the cell.
 _UNEVEN = 5.0
-# Straight cells have the same Jacobian everywhere.
-_ANYWHERE = {dim: np.zeros((1, dim)) for dim in (1, 2, 3)}
 # Slowest decay that a few degrees can tell from none: that of r^{1/2} in the cells at its tip at degree 10.
 _SLOWEST_DECAY = 0.75
 # Curved cells are treated so many at once; of more potentials than these the coefficients of all functions come first.
@@ -113,16 +111,14 @@ def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], n
         p − 4, whose squares add up to ∫|∇ψ|², shape (potentials, cells, dim, polynomials); and where the polynomials of
         the second to the fourth of these degrees begin.
     """
-    mesh = liquid.tank.mesh
-    jacobian = cell_jacobians(mesh, owned_cells(mesh), _ANYWHERE[mesh.topology.dim])[:, 0]
-    inverse = np.linalg.inv(jacobian).transpose(0, 2, 1)
-    inverse *= np.sqrt(np.abs(np.linalg.det(jacobian)))[:, None, None]
+    inverse, measure = liquid.cells.straight
+    scaled = inverse.transpose(0, 2, 1) * np.sqrt(measure)[:, None, None]
     table, starts = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
 
     def coefficients(values: np.ndarray) -> np.ndarray:
         # One product of matrices for all potentials and cells.
         reference: np.ndarray = np.tensordot(values, table, (2, 2))
-        return inverse @ reference
+        return scaled @ reference
 
     return coefficients, starts
 

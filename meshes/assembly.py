@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,10 +34,13 @@ def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]
     outline = layout.outline
     _check_areas(outline, joined)
     edges = edges_of(joined.cells)
-    on_curves = [edges.find(np.column_stack([chain[:-1], chain[1:]])) for chain in joined.chains]
-    joined, edges = _turned(joined, edges, on_curves)
-    sides = [_sides(joined, edges, some, chain) for some, chain in zip(on_curves, joined.chains, strict=True)]
+    starts, ends = (np.concatenate([chain[part] for chain in joined.chains]) for part in (slice(-1), slice(1, None)))
+    lined = edges.find(np.column_stack([starts, ends]))
+    stops = np.cumsum([len(chain) - 1 for chain in joined.chains])
+    joined, edges = _turned(joined, edges, lined)
+    sides = _sides(joined, edges, lined, starts, stops)
     points, cells = joined.points, joined.cells
+    on_curves = np.split(lined, stops[:-1])
     to_cut = [some for some, curve in zip(on_curves, outline.curves, strict=True) if curve.cut]
     if to_cut:
         cells, copied = cut_open(cells, edges, np.concatenate(to_cut))
@@ -122,43 +126,50 @@ def _check_areas(outline: Outline, joined: _Joined) -> None:
             raise MeshError(f"the triangles of region {region.name!r} overlap or leave gaps: do curves cross?")
 
 
-def _turned(joined: _Joined, edges: Edges, on_curves: list[NDArray[np.int64]]) -> tuple[_Joined, Edges]:
+def _turned(joined: _Joined, edges: Edges, lined: NDArray[np.int64]) -> tuple[_Joined, Edges]:
     """Turn cells so that their first corner is opposite to their edge on a curve, of several on the first one: facets
     that have the same place in their cells are integrated together."""
     rank = np.zeros(len(edges.nodes), dtype=np.int64)
-    for number, some in enumerate(reversed(on_curves), start=1):
-        rank[some] = number
+    rank[lined] = np.arange(len(lined), 0, -1)
     corners = (np.argmax(rank[edges.places], axis=1)[:, None] + np.arange(3)) % 3
     cells, places = (np.take_along_axis(array, corners, axis=1) for array in (joined.cells, edges.places))
     return replace(joined, cells=cells), replace(edges, places=places)
 
 
-def _sides(joined: _Joined, edges: Edges, wanted: NDArray[np.int64], chain: NDArray[np.int64]) -> Sides:
-    """The cells at the edges of a curve, those at each edge one after the other.
+def _sides(
+    joined: _Joined,
+    edges: Edges,
+    lined: NDArray[np.int64],
+    starts: NDArray[np.int64],
+    stops: NDArray[np.int64],
+) -> list[Sides]:
+    """The cells at the edges of each curve, those at each edge one after the other.
 
     Args:
         joined: all cells.
         edges: their edges.
-        wanted: the curve's edges in order.
-        chain: the curve's nodes in order.
+        lined: the edges of the curves in order, one curve after the other.
+        starts: the first node of each of them.
+        stops: the number of edges up to the end of each curve.
     """
     # An edge has the places 3 · cell + opposite corner.
     flat = edges.places.ravel()
     element_of = np.full(len(edges.nodes), -1)
-    element_of[wanted] = np.arange(len(wanted))
+    element_of[lined] = np.arange(len(lined))
     places = np.flatnonzero(element_of[flat] >= 0)
     elements = element_of[flat[places]]
     order = np.argsort(elements, kind="stable")
     places, elements = places[order], elements[order]
     cells, opposite = np.divmod(places, 3)
     first, second = EDGE_CORNERS[opposite].T
-    forward = joined.cells[cells, first] == chain[elements]
-    return Sides(
-        cells=cells,
-        elements=elements,
-        starts=np.where(forward, first, second),
-        ends=np.where(forward, second, first),
-    )
+    forward = joined.cells[cells, first] == starts[elements]
+    ends = np.where(forward, [first, second], [second, first])
+    bounds = np.append(0, stops)
+    owned = (slice(*some) for some in pairwise(np.searchsorted(elements, bounds)))
+    return [
+        Sides(cells=cells[own], elements=elements[own] - before, starts=ends[0, own], ends=ends[1, own])
+        for own, before in zip(owned, bounds, strict=False)
+    ]
 
 
 def _facets(
@@ -168,12 +179,14 @@ def _facets(
     facets, tags = [], []
     for curve, side in zip(outline.curves, sides, strict=True):
         if curve.name:
-            chosen = slice(None) if curve.cut else np.unique(side.elements, return_index=True)[1]
+            chosen = np.full(len(side.elements), True)
+            if not curve.cut:
+                chosen[1:] = np.diff(side.elements) > 0
             ends = np.column_stack([side.starts, side.ends])[chosen]
             facets.append(cells[side.cells[chosen][:, None], ends])
             tags.append(np.full(len(ends), names[curve.name], dtype=np.int32))
     found = np.vstack(facets)
-    if len(np.unique(np.sort(found, axis=1), axis=0)) < len(found):
+    if any(curve.cut for curve in outline.curves) and len(np.unique(np.sort(found, axis=1), axis=0)) < len(found):
         raise MeshError("a slit of a single element cannot be opened: ask for smaller elements on it")
     return found, np.concatenate(tags)
 

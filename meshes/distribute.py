@@ -115,7 +115,7 @@ def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
     """Distribute a mesh of any simplices; the whole of it is on rank 0, ``None`` on the others (collective)."""
     # Its large arrays but the tags of cells stay on rank 0; others have arrays of the same widths without rows.
     own = noded or comm.bcast(None, root=0)
-    if noded is not None:
+    if noded is not None and comm.size > 1:
         comm.bcast(
             replace(
                 noded,
@@ -128,8 +128,9 @@ def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
         )
     dim = own.points.shape[1]
     element = _geometry_element(own.cell, own.degree, dim)
-    parts = bisected(own.points[own.cells[:, : dim + 1]].mean(axis=1), comm.size)
-    partitioner = given_partition(parts) if comm.size > 1 else None
+    partitioner = None
+    if comm.size > 1:
+        partitioner = given_partition(bisected(own.points[own.cells[:, : dim + 1]].mean(axis=1), comm.size))
     mesh = create_mesh(comm, cells=own.cells, x=own.points, e=element, partitioner=partitioner)
     mesh.topology.create_entities(dim - 1)
     mesh.topology.create_connectivity(dim - 1, dim)

@@ -193,7 +193,7 @@ def enclosed_area(points: NDArray[np.float64]) -> float:
     """Area, m², within a closed polygon of points, m, shape (n, 2); positive if it turns counterclockwise."""
     # Relative to one of its points, to avoid cancellation in polygons far from the origin.
     x, y = (points - points[0]).T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    return 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
 
 
 def _check_curve(number: int, curve: Curve) -> None:

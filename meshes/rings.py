@@ -33,13 +33,12 @@ def ring_triangles(rings: int, rays: int) -> NDArray[np.int64]:
 
     Nodes are numbered with the corner first, then ring after ring from the inside, each from the first to the last ray.
     """
+    # Of each ring and sector, the node that both of its triangles share on the inside.
+    nodes = (1 + rays * np.arange(rings - 1))[:, None] + np.arange(rays - 1)
+    corners = np.array([[0, rays, rays + 1], [0, rays + 1, 1]])
+    triangles = nodes[:, None, :, None] + corners[:, None]
     ray = np.arange(rays - 1)
-    blocks = [np.column_stack([np.zeros_like(ray), 1 + ray, 2 + ray])]
-    for inner in range(1, 1 + rays * (rings - 1), rays):
-        outer = inner + rays
-        blocks.append(np.column_stack([inner + ray, outer + ray, outer + ray + 1]))
-        blocks.append(np.column_stack([inner + ray, outer + ray + 1, inner + ray + 1]))
-    return np.vstack(blocks)
+    return np.vstack([np.column_stack([np.zeros_like(ray), 1 + ray, 2 + ray]), triangles.reshape(-1, 3)])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,6 +12,7 @@ from hydroelastic.fem.liquid import Layer, liquid_space
 from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.liquid_pencil import build_pencil
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shape_loads import loads_with_fluxes
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
 from hydroelastic.fem.tank.outline import layer_names, zero_on_axis, zero_potential_surfaces
@@ -149,14 +150,21 @@ def _field_models(
         condensed=True,
     )
     matrices = liquid_matrices(liquid, surfaces)
-    pencils = []
+    of_parities = []
+    alike: dict[str, list[Body]] = {}
     for parity in parities:
-        plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
         bodies = whole_bodies(tank, shapes) if parity is None else half_bodies(tank, shapes, parity)
-        part = replace(liquid, zero_potential=liquid.zero_potential + plane)
         # A float in the middle may have no motion of this parity, and a beam may be fixed.
-        moving = tuple(body for body in bodies if body.size)
-        pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
+        of_parities.append(tuple(body for body in bodies if body.size))
+        for body in of_parities[-1]:
+            alike.setdefault(body.surface, []).append(body)
+    loads = {surface: iter(loads_with_fluxes(liquid, own)) for surface, own in alike.items()}
+    pencils = []
+    for parity, moving in zip(parities, of_parities, strict=True):
+        plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
+        part = replace(liquid, zero_potential=liquid.zero_potential + plane)
+        of_bodies = [next(loads[body.surface]) for body in moving]
+        pencils.append(build_pencil(part, matrices, bodies=moving, of_bodies=of_bodies, surfaces=surfaces))
     return tuple(pencils)
 
 

@@ -228,7 +228,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
-        return _extended(parts[number].modes.completed(index), extensions[number])
+        mode = parts[number].modes.completed(index)
+        return mode if parts[number].parity is None else _extended(mode, extensions[number])
 
     return FieldSolution(
         mesh=mesh,

@@ -11,6 +11,8 @@ from hydroelastic.meshes.interrupts import end_on_interrupt
 # with Python's own number, 2 000, the searches take a tenth of its run.
 _BEFORE_FIRST_SEARCH = 200_000
 _BETWEEN_SEARCHES = 50_000
+# Commands that need MPI, which takes the longest of all libraries to load.
+_SOLVING = ("run", "compare", "study", "sweep")
 
 
 def start() -> None:
@@ -22,6 +24,13 @@ def start() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
+    if sys.argv[1:2] and sys.argv[1] in _SOLVING:
+        # These wait for their own small libraries, which are loaded first: one at a time is.
+        import hydroelastic.output.folder
+        import hydroelastic.scenes.errors  # noqa: F401
+        from hydroelastic.scenes.early_libraries import DOLFINX, MPI, load_early
+
+        load_early(MPI, DOLFINX)
     from hydroelastic.scenes.command_line import main
 
     try:

@@ -7,9 +7,9 @@ import traceback
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 
-# New objects after which Python searches for cycles. Imports and a small scene make some 150 000, hardly any in cycles;
-# with Python's own number, 2 000, the searches take a tenth of its run.
-_BEFORE_FIRST_SEARCH = 200_000
+# New objects after which Python searches for cycles. Imports, a small scene and its pictures make some 230 000, hardly
+# any in cycles; with Python's own number, 2 000, the searches take a tenth of its run.
+_BEFORE_FIRST_SEARCH = 300_000
 _BETWEEN_SEARCHES = 50_000
 # Commands that need MPI, which takes the longest of all libraries to load.
 _SOLVING = ("run", "compare", "study", "sweep")

@@ -12,7 +12,7 @@ from hydroelastic.meshes.interrupts import end_on_interrupt
 _BEFORE_FIRST_SEARCH = 300_000
 _BETWEEN_SEARCHES = 50_000
 # Commands that need MPI, which takes the longest of all libraries to load.
-_SOLVING = ("run", "compare", "study", "sweep")
+_SOLVING = {"run", "compare", "study", "sweep"}
 
 
 def start() -> None:
@@ -24,8 +24,8 @@ def start() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
-    if sys.argv[1:2] and sys.argv[1] in _SOLVING:
-        # These wait for their own small libraries, which are loaded first: one at a time is.
+    if _SOLVING.intersection(sys.argv[1:2]) and not {"-h", "--help"}.intersection(sys.argv):
+        # Libraries are loaded one at a time: first the small ones of these modules, which would wait for MPI.
         import hydroelastic.output.folder
         import hydroelastic.scenes.errors  # noqa: F401
         from hydroelastic.scenes.early_libraries import DOLFINX, MPI, load_early

@@ -1,44 +1,59 @@
-"""Load shared libraries in a thread, while Python reads the scene: it keeps all others waiting when it loads them."""
+"""Load shared libraries in a thread, while Python imports what reads a scene: their import keeps Python waiting."""
 
 from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from ctypes.util import find_library
+from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 
+MPI = "mpi4py.MPI"
+"""The longest to load: Open MPI's library for Omni-Path sleeps for a tenth of a second to measure the processor."""
+DOLFINX = "dolfinx.cpp"
 GMSH = "gmsh"
-MPI = "mpi4py/MPI"
-"""Open MPI's library for Omni-Path sleeps for a tenth of a second, to measure the clock of the processor."""
-DOLFINX = "dolfinx/cpp"
 
 
-def load_early(*names: str) -> None:
-    """Begin to load libraries, one after the other; a later import of them waits until they are there.
+def load_early(*modules: str) -> None:
+    """Begin to load the libraries of modules, one after the other; an import of them waits until they are loaded.
 
-    What is not found is left to its import, which tells.
+    What is not found is left to the import, which tells.
 
     Args:
-        names: of libraries of the system, or of compiled modules as package/module.
+        modules: any of `MPI`, `DOLFINX` and `GMSH`.
     """
-    Thread(target=_load, args=names).start()
+    missing = [module for module in modules if module not in sys.modules]
+    if missing:
+        Thread(target=_load, args=missing).start()
 
 
-def _load(*names: str) -> None:
-    # Called as a function of the library of C, it lets others run; `ctypes.CDLL` does not.
+def _load(*modules: str) -> None:
+    # Called as any function of C, it lets Python go on; `ctypes.CDLL` does not.
     dlopen = ctypes.CDLL(None).dlopen
-    for name in names:
-        file = _file(name)
-        if file is not None:
-            dlopen(file.encode(), ctypes.c_int(os.RTLD_NOW))
+    for module in modules:
+        library = _library_of_gmsh() if module == GMSH else _compiled(*module.split("."))
+        if library is not None:
+            dlopen(library.encode(), ctypes.c_int(os.RTLD_NOW))
 
 
-def _file(name: str) -> str | None:
-    package, _, module = name.partition("/")
-    if not module:
-        return find_library(name)
+def _compiled(package: str, module: str) -> str | None:
+    """The file of a compiled module. The package is not imported, and variants for other libraries are not taken."""
     spec = find_spec(package)
     folders = () if spec is None else spec.submodule_search_locations or ()
-    return next((str(file) for folder in folders for file in Path(folder).glob(f"{module}.*.so")), None)
+    files = (Path(folder, f"{module}{suffix}") for folder in folders for suffix in EXTENSION_SUFFIXES)
+    return next((str(file) for file in files if file.is_file()), None)
+
+
+def _library_of_gmsh() -> str | None:
+    """The library that gmsh's module loads: one in the folders around it, or that of the system."""
+    spec = find_spec(GMSH)
+    if spec is None or spec.origin is None:
+        return None
+    folders = [place for above in Path(spec.origin).resolve().parents[:3] for place in (above, above / "lib")]
+    near = {file.resolve() for folder in folders for file in folder.glob("libgmsh.so*")}
+    if near:
+        return str(near.pop()) if len(near) == 1 else None
+    return find_library(GMSH)

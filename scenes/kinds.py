@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 def runner_of(scene: Scene) -> StagedRun[Any, Any]:
     """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
     if scene.kind in ("tank", "sea"):
+        # First what has libraries of its own, which would wait for that of gmsh.
         import dolfinx  # noqa: F401
 
         load_early(GMSH)

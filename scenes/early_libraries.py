@@ -5,10 +5,10 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes.util import find_library
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import find_spec
 from pathlib import Path
+from sysconfig import get_config_var
 from threading import Thread
 
 MPI = "mpi4py.MPI"
@@ -48,12 +48,11 @@ def _compiled(package: str, module: str) -> str | None:
 
 
 def _library_of_gmsh() -> str | None:
-    """The library that gmsh's module loads: one in the folders around it, or that of the system."""
+    """The library that gmsh's module will find, around it or in the system's folder, if there is only one."""
     spec = find_spec(GMSH)
     if spec is None or spec.origin is None:
         return None
-    folders = [place for above in Path(spec.origin).resolve().parents[:3] for place in (above, above / "lib")]
-    near = {file.resolve() for folder in folders for file in folder.glob("libgmsh.so*")}
-    if near:
-        return str(near.pop()) if len(near) == 1 else None
-    return find_library(GMSH)
+    above = Path(spec.origin).resolve().parents[:3]
+    folders = (*above, *(folder / "lib" for folder in above), Path(get_config_var("LIBDIR") or "/usr/lib"))
+    found = {file.resolve() for folder in folders for file in folder.glob("libgmsh.so*")}
+    return str(found.pop()) if len(found) == 1 else None

@@ -7,10 +7,12 @@ import traceback
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 
-# New objects after which Python searches for cycles. Imports and a small scene make some 150 000, hardly any in cycles;
-# with Python's own number, 2 000, the searches take a tenth of its run.
-_BEFORE_FIRST_SEARCH = 200_000
+# New objects after which Python searches for cycles. Imports, a small scene and its pictures make some 230 000, hardly
+# any in cycles; with Python's own number, 2 000, the searches take a tenth of its run.
+_BEFORE_FIRST_SEARCH = 300_000
 _BETWEEN_SEARCHES = 50_000
+# Commands that need MPI, which takes the longest of all libraries to load.
+_SOLVING = {"run", "compare", "study", "sweep"}
 
 
 def start() -> None:
@@ -22,6 +24,13 @@ def start() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
+    if _SOLVING.intersection(sys.argv[1:2]) and not {"-h", "--help"}.intersection(sys.argv):
+        # Libraries are loaded one at a time: first the small ones of these modules, which would wait for MPI.
+        import hydroelastic.output.folder
+        import hydroelastic.scenes.errors  # noqa: F401
+        from hydroelastic.scenes.early_libraries import DOLFINX, MPI, load_early
+
+        load_early(MPI, DOLFINX)
     from hydroelastic.scenes.command_line import main
 
     try:

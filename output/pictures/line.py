@@ -30,6 +30,7 @@ from hydroelastic.output.pictures.page import (
     WIDTH,
     ColourBar,
     arrow_key,
+    exponent_of,
     new_page,
     pixels,
     place,
@@ -107,7 +108,9 @@ def _page(view: LineView, line: DrawnLine, width: int) -> Figure:
     write_title(figure, line.title)
     write_keys(figure, keys, KEYS)
     write_caption(figure, "; ".join(filter(None, [f"{sight}; drawn to scale", line.note])))
-    ColourBar(figure, SEQUENCE, meaning=view.quantity, measure=view.measure).span(*view.colours)
+    exponent = exponent_of(*view.colours)
+    bar = ColourBar(figure, SEQUENCE, meaning=view.quantity, measure=view.measure, exponent=exponent)
+    bar.span(figure, *view.colours)
     return figure
 
 

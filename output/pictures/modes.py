@@ -24,6 +24,7 @@ from hydroelastic.output.pictures.page import (
     WIDTH,
     ColourBar,
     FieldImage,
+    exponent_of,
     new_page,
     pixels,
     place,
@@ -176,8 +177,12 @@ def _mode_pages(
     scales = largest or picture
     view = view_of(scales)
     names = key_names([picture], field_name(picture), vectors=True)
+    limit = colour_limit(scales)
     # What of a view differs from mode to mode is not of the page.
-    page = _page(replace(view, surface_scale=0.0), picture.start, picture.densities, names, picture.amplitude, width)
+    page = _page(
+        replace(view, surface_scale=0.0), picture.start, picture.densities, names, picture.amplitude,
+        exponent_of(-limit, limit), width,
+    )  # fmt: skip
     return page.drawn(picture, titles, view, largest)
 
 
@@ -185,9 +190,10 @@ class _Page:
     """What is the same on the pictures of several modes, drawn once: letters and axes take longer than fields."""
 
     def __init__(
-        self, view: View, start: float, densities: tuple[float, ...], names: tuple[str, ...], amplitude: str, width: int
-    ) -> None:
-        """Draw scales, densities and keys; make room for a tank, a colour bar and words."""
+        self, view: View, start: float, densities: tuple[float, ...], names: tuple[str, ...], amplitude: str,
+        exponent: int, width: int,
+    ) -> None:  # fmt: skip
+        """Draw scales, densities, keys and colours; make room for a tank, numbers of the colours and words."""
         beside = _DENSITIES if densities else 0.0
         drawn_width = min(WIDTH - _BESIDE - beside, 0.75 * WIDTH / view.aspect)
         drawn_height = drawn_width * view.aspect
@@ -200,22 +206,23 @@ class _Page:
         _draw_scales(axes, view, start, drawn_width / view.length)
         _label_liquids(axes, densities, view, view.length / drawn_width)
         write_keys(still, keys(names), KEYS)
-        self._figure.add_artist(FieldImage(pixels(still), 0, 0))
-        self._figure.patch.set_visible(False)
         name, meaning = ("ρψ", "ρψ ∝ dynamic pressure") if densities else ("ψ", "ψ")
         measure = f"{_UNITS[name]}, {amplitude}"
-        self._bar = ColourBar(self._figure, mode_colours(), meaning=meaning, measure=measure)
+        self._bar = ColourBar(still, mode_colours(), meaning=meaning, measure=measure, exponent=exponent)
+        self._figure.add_artist(FieldImage(pixels(still), 0, 0))
+        self._figure.patch.set_visible(False)
 
     def drawn(
         self, picture: ModePicture, titles: Sequence[str], view: View, largest: ModePicture | None
     ) -> list[NDArray[np.uint8]]:
         """Draw a mode in place of the one before, under each of the titles."""
         limit = colour_limit(largest or picture)
-        self._bar.span(-limit, limit)
+        ticks = self._bar.span(self._figure, -limit, limit)
         draw_tank(self._tank, picture, view, largest=largest)
         caption = write_caption(self._figure, scale_notes(view, picture))
         pages = titled(self._figure, titles)
-        caption.remove()
+        for artist in (caption, *ticks):
+            artist.remove()
         erase_tank(self._tank)
         return pages
 

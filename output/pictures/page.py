@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps, rcParams
@@ -22,10 +23,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.markers import MarkerStyle
+from matplotlib.markers import TICKDOWN, MarkerStyle
 from matplotlib.path import Path as PathOfMarker
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import IdentityTransform
 from numpy.typing import NDArray
 from PIL.PngImagePlugin import putchunk
 
@@ -41,6 +43,10 @@ POINT = 0.72
 _PER_INCH = 72.0 / POINT
 # Letters of DejaVu Sans are so wide in the mean, over their height.
 _LETTER = 0.6
+# Length of a tick of a colour bar, points.
+_TICK = 7.0 * POINT
+# What is placed in pixels of the image.
+_IN_PIXELS: dict[str, Any] = {"color": "black", "transform": IdentityTransform(), "zorder": 0.0}
 
 
 class FieldImage(Artist):
@@ -256,33 +262,48 @@ class ColourBar:
         colours: from the first to the last.
         meaning: of the values.
         measure: their unit, with anything that is said beside it.
+        exponent: of the power of ten that the numbers leave out, see `exponent_of`.
     """
 
-    def __init__(self, figure: Figure, colours: Colormap | str, *, meaning: str, measure: str) -> None:
-        """Draw the colours."""
-        self._meaning, self._measure = meaning, measure
+    def __init__(self, figure: Figure, colours: Colormap | str, *, meaning: str, measure: str, exponent: int) -> None:
+        """Draw the colours and their meaning."""
+        self._exponent = exponent
         width, gap = 640.0, 40.0
         left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning}, {measure}"))
-        self._axes = figure.add_axes(place(figure, left, 102.0, width, 20.0))
-        self._axes.patch.set_visible(False)
-        self._axes.yaxis.set_visible(False)
-        (x, y), (right, top) = np.round(self._axes.bbox.min).astype(int), np.round(self._axes.bbox.max).astype(int)
+        # Pixels of the image. Axes would take several times as long to make and to draw.
+        scale = figure.bbox.width / WIDTH
+        ends, levels = scale * np.array([left, left + width]), scale * np.array([102.0, 122.0])
+        self._ends, self._bottom = ends, float(levels[0])
+        (x, right), (y, top) = ends.round().astype(int), levels.round().astype(int)
         row = colormaps.get_cmap(colours)(np.linspace(0.0, 1.0, right - x), bytes=True)
         figure.add_artist(FieldImage(np.tile(row, (top - y, 1, 1)), x, y))
-        self._axes.tick_params(labelsize=20.0 * POINT, length=7.0 * POINT)
-        size = 21.0 * POINT
-        self._label = self._axes.text(
-            1.0 + gap / width, 0.5, "", size=size, va="center", transform=self._axes.transAxes
-        )
-
-    def span(self, low: float, high: float) -> None:
-        """Put ticks on the colours, which span these values."""
-        exponent = int(np.floor(np.log10(max(abs(low), abs(high)))))
-        exponent = 0 if -3 <= exponent <= 3 else exponent
+        around = ends[[0, 1, 1, 0, 0]], levels[[0, 0, 1, 1, 0]]
+        figure.add_artist(Line2D(*around, linewidth=0.8, solid_joinstyle="miter", **_IN_PIXELS))
         power = f"$10^{{{exponent}}}$ " if exponent else ""
-        self._label.set_text(f"{self._meaning}, {power}{self._measure}")
-        ticks = round_ticks(low / 10.0**exponent, high / 10.0**exponent, 8)
-        self._axes.set_xticks((ticks * 10.0**exponent - low) / (high - low), tick_labels(ticks))
+        x, y = float(ends[1]) + scale * gap, float(levels.mean())
+        figure.text(x, y, f"{meaning}, {power}{measure}", size=21.0 * POINT, va="center", **_IN_PIXELS)
+
+    def span(self, figure: Figure, low: float, high: float) -> list[Artist]:
+        """Put ticks on the colours, which span these values, in the same figure or another one on top of it."""
+        power = 10.0**self._exponent
+        ticks = round_ticks(low / power, high / power, 8)
+        left, right = self._ends
+        x = left + (right - left) * (ticks * power - low) / (high - low)
+        y = np.full(len(x), self._bottom)
+        marks = Line2D(x, y, ls="none", marker=MarkerStyle(TICKDOWN), markersize=_TICK, mew=0.8, **_IN_PIXELS)
+        figure.add_artist(marks)
+        below = self._bottom - (_TICK + 3.5) / 72.0 * figure.dpi
+        numbers = [
+            figure.text(at, below, label, size=20.0 * POINT, ha="center", va="top", **_IN_PIXELS)
+            for at, label in zip(x, tick_labels(ticks), strict=True)
+        ]
+        return [marks, *numbers]
+
+
+def exponent_of(low: float, high: float) -> int:
+    """The power of ten that numbers between two limits are written without: 0 if they are neither small nor large."""
+    exponent = int(np.floor(np.log10(max(abs(low), abs(high)))))
+    return 0 if -3 <= exponent <= 3 else exponent
 
 
 def round_ticks(low: float, high: float, count: int) -> NDArray[np.float64]:

@@ -180,9 +180,14 @@ def _mode_pages(
     limit = colour_limit(scales)
     # What of a view differs from mode to mode is not of the page.
     page = _page(
-        replace(view, surface_scale=0.0), picture.start, picture.densities, names, picture.amplitude,
-        exponent_of(-limit, limit), width,
-    )  # fmt: skip
+        replace(view, surface_scale=0.0),
+        picture.start,
+        picture.densities,
+        names,
+        picture.amplitude,
+        exponent_of(-limit, limit),
+        width,
+    )
     return page.drawn(picture, titles, view, largest)
 
 
@@ -190,9 +195,15 @@ class _Page:
     """What is the same on the pictures of several modes, drawn once: letters and axes take longer than fields."""
 
     def __init__(
-        self, view: View, start: float, densities: tuple[float, ...], names: tuple[str, ...], amplitude: str,
-        exponent: int, width: int,
-    ) -> None:  # fmt: skip
+        self,
+        view: View,
+        start: float,
+        densities: tuple[float, ...],
+        names: tuple[str, ...],
+        amplitude: str,
+        exponent: int,
+        width: int,
+    ) -> None:
         """Draw scales, densities, keys and colours; make room for a tank, numbers of the colours and words."""
         beside = _DENSITIES if densities else 0.0
         drawn_width = min(WIDTH - _BESIDE - beside, 0.75 * WIDTH / view.aspect)

@@ -24,24 +24,23 @@ _SPARE_POINTS = 8
 _AT_CORNER = 1e-3
 
 
-def shape_loads(liquid: LiquidSpace, body: Body, *, flux: bool = False) -> np.ndarray:
+def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     """Integrate every shape of a body against every basis function of ψ.
 
     Args:
         liquid: space of ψ on simplices.
         body: the body.
-        flux: whether ∫q follows in a last row, as by `surface_load`.
 
     Returns:
         ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
     """
-    loads, *_ = loads_with_fluxes(liquid, (body,))
-    return loads if flux else loads[:-1]
+    (loads,) = loads_with_fluxes(liquid, (body,))
+    return loads[:-1]
 
 
 def loads_with_fluxes(liquid: LiquidSpace, bodies: Sequence[Body]) -> list[np.ndarray]:
-    """Return `shape_loads` with fluxes of bodies that have one wetted surface in common, as the symmetric and the
-    antisymmetric shapes of one have: its facets are gone through once (collective)."""
+    """Return `shape_loads` of bodies that have one wetted surface in common, as the symmetric and the antisymmetric
+    shapes of one have, each with ∫q in a last row, as by `surface_load`; facets are gone through once (collective)."""
     first = bodies[0]
     wavenumber = max(body.wavenumber for body in bodies)
     sizes = [body.size for body in bodies]

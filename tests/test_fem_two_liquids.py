@@ -17,7 +17,7 @@ from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.liquid_pencil import surface_fluxes
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.shape_loads import loads_with_fluxes, surface_load
 from hydroelastic.modal.liquid.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.tank import TankScene
@@ -359,7 +359,7 @@ def test_two_processes_find_what_one_finds(top: LayerTop) -> None:
 def test_the_flux_of_an_elevation_is_that_of_the_surface_in_both_liquids() -> None:
     (pencil,) = pencils(layered(interface_beam(start=0.2), top="free"))
     liquid, names = pencil.liquid, ("body_1", "interface", "free_surface")
-    of_bodies = tuple(shape_loads(liquid, body, flux=True)[-1] for body in pencil.bodies)
+    of_bodies = tuple(loads_with_fluxes(liquid, (body,))[0][-1] for body in pencil.bodies)
     fluxes = surface_fluxes(liquid, liquid_matrices(liquid, pencil.surfaces), pencil.surfaces, of_bodies)
     assert fluxes == pytest.approx(surface_load(liquid, names), abs=1e-15)
 
@@ -367,6 +367,6 @@ def test_the_flux_of_an_elevation_is_that_of_the_surface_in_both_liquids() -> No
 def test_the_flux_of_a_float_is_that_of_its_contour() -> None:
     (pencil,) = pencils(layered(rigid("ellipse", 0.6, half_width=0.1, half_height=0.1)))
     (body,) = pencil.bodies
-    flux = shape_loads(pencil.liquid, body, flux=True)[-1]
+    ((*_, flux),) = loads_with_fluxes(pencil.liquid, (body,))
     # The measure of a curved facet is no polynomial: measured 1.9e-9 between the two quadratures, of at most 0.017.
     assert flux == pytest.approx(surface_load(pencil.liquid, (body.surface,)), abs=5e-9)

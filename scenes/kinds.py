@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.early_libraries import GMSH, load_early
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import Scene, closed_tank
@@ -18,11 +17,6 @@ if TYPE_CHECKING:
 
 def runner_of(scene: Scene) -> StagedRun[Any, Any]:
     """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
-    if scene.kind in ("tank", "sea"):
-        # First what has libraries of its own, which would wait for that of gmsh.
-        import dolfinx  # noqa: F401
-
-        load_early(GMSH)
     if isinstance(scene, TankScene) or scene.kind == "sea":
         if scene.is_open:
             from hydroelastic.scenes.open_water.run import run_open

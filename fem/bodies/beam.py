@@ -82,6 +82,11 @@ class BeamModel(BodyModel):
             needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
         return ceil(needed) + 4 + len(self.beam.hinges)
 
+    @property
+    def has_tone(self) -> bool:
+        """See `BodyModel.has_tone`; asked for each of many beams, it needs no estimate."""
+        return True
+
     def expected_tones(self) -> tuple[float, ...]:
         """Estimate λ of dry mode 1 coupled with heave, on deep open liquids with ψ = 0 beside the beam."""
         beam, level = self.beam, self.tank.level_of(self.index)

@@ -47,6 +47,11 @@ class BodyModel(ABC):
         """Return how many of the lowest elastic dry modes of a body, in all azimuthal orders, are of the tank's."""
         return count
 
+    @property
+    def has_tone(self) -> bool:
+        """Whether its first elastic tone is one of the tank's order."""
+        return bool(self.expected_tones())
+
     def expected_tones(self) -> tuple[float, ...]:
         """Estimate the dimensionless λ of its first elastic tone, for the choice of a mesh; empty for a rigid body, and
         for a plate whose first elastic tone is of another order."""

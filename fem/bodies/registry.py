@@ -30,7 +30,7 @@ def expected_tones(tank: Tank) -> tuple[float, ...]:
 
 def toned_bodies(tank: Tank) -> tuple[int, ...]:
     """Return the indices of the elastic bodies whose first elastic tone is one of the tank's order."""
-    return tuple(index for index in tank.elastic if body_model(tank, index).expected_tones())
+    return tuple(index for index in tank.elastic if body_model(tank, index).has_tone)
 
 
 def ends_of_motions(tank: Tank) -> tuple[float, ...]:

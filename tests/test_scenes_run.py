@@ -238,7 +238,8 @@ def test_walls_and_bottom_let_nothing_through(fields: meshio.Mesh) -> None:
 def test_every_mode_shows_its_largest_structural_displacement_upwards(shapes: ModeShapes) -> None:
     for curves in shapes.curves:
         (beam,) = [curve.displacement for curve in curves if curve.kind == "body"]
-        assert beam[np.argmax(np.abs(beam))] > 0.0
+        # Both ends of an antisymmetric mode move as far, but for rounding.
+        assert beam.max() == pytest.approx(np.abs(beam).max(), rel=1e-9)
 
 
 def test_mirrored_surfaces_reach_from_end_to_end(tanks: Any) -> None:

@@ -14,7 +14,8 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.solver_error import EigenSolverError
 
-# Measured: unless SciPy is there already, its import takes longer than the eigenvalues of so small a matrix.
+# Measured: unless SciPy is there already, its import takes longer than the eigenvalues of so small a matrix. By either
+# way the count is that of the exact matrix, unless an eigenvalue is rounding.
 _FEW = 150
 # Columns that LAPACK eliminates at once.
 _COLUMNS = 64

@@ -41,7 +41,9 @@ def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenval
 @lru_cache(maxsize=16)
 def elastic_places(dofs: tuple[Dof, ...]) -> np.ndarray:
     """Return the places of the elastic degrees of freedom."""
-    return np.flatnonzero([dof.is_elastic for dof in dofs])
+    places = np.flatnonzero([dof.is_elastic for dof in dofs])
+    places.flags.writeable = False
+    return places
 
 
 def omitted(parts: np.ndarray) -> np.ndarray:

@@ -168,7 +168,7 @@ def _sides(
     owned = (slice(*some) for some in pairwise(np.searchsorted(elements, bounds)))
     return [
         Sides(cells=cells[own], elements=elements[own] - before, starts=ends[0, own], ends=ends[1, own])
-        for own, before in zip(owned, bounds, strict=False)
+        for own, before in zip(owned, bounds[:-1], strict=True)
     ]
 
 
@@ -186,7 +186,7 @@ def _facets(
             facets.append(cells[side.cells[chosen][:, None], ends])
             tags.append(np.full(len(ends), names[curve.name], dtype=np.int32))
     found = np.vstack(facets)
-    if any(curve.cut for curve in outline.curves) and len(np.unique(np.sort(found, axis=1), axis=0)) < len(found):
+    if len(np.unique(np.sort(found, axis=1), axis=0)) < len(found):
         raise MeshError("a slit of a single element cannot be opened: ask for smaller elements on it")
     return found, np.concatenate(tags)
 

@@ -178,7 +178,8 @@ def run(
             # First what has libraries of its own, which would wait for that of gmsh.
             import dolfinx  # noqa: F401
 
-            load_early(GMSH)
+            if is_first_rank():
+                load_early(GMSH)
         run_kind = runner_of(checked)
         write_page = page_writer(checked) if page else None
         seconds = time.perf_counter() - start

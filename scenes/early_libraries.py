@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from contextlib import suppress
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import find_spec
 from pathlib import Path
@@ -27,16 +28,20 @@ def load_early(*modules: str) -> None:
     """
     missing = [module for module in modules if module not in sys.modules]
     if missing:
-        Thread(target=_load, args=missing).start()
+        # Not a daemon: the process must not end within `dlopen`. Where no thread may be started, nothing is lost.
+        with suppress(RuntimeError):
+            Thread(target=_load, args=missing).start()
 
 
 def _load(*modules: str) -> None:
-    # Called as any function of C, it lets Python go on; `ctypes.CDLL` does not.
-    dlopen = ctypes.CDLL(None).dlopen
-    for module in modules:
-        library = _library_of_gmsh() if module == GMSH else _compiled(*module.split("."))
-        if library is not None:
-            dlopen(library.encode(), ctypes.c_int(os.RTLD_NOW))
+    # Some systems have no `dlopen` in the library of C, or packages that cannot be searched.
+    with suppress(OSError, AttributeError, TypeError, ValueError):
+        # Called as any function of C, it lets Python go on; `ctypes.CDLL` does not.
+        dlopen = ctypes.CDLL(None).dlopen
+        for module in modules:
+            library = _library_of_gmsh() if module == GMSH else _compiled(*module.split("."))
+            if library is not None:
+                dlopen(library.encode(), ctypes.c_int(os.RTLD_NOW))
 
 
 def _compiled(package: str, module: str) -> str | None:

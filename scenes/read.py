@@ -194,7 +194,8 @@ def scene_source(scene: Scene | str | Path | Mapping[str, Any]) -> SceneSource:
     if not isinstance(scene, Mapping) and not is_scene(scene):
         allowed = "a scene, the name of a shipped scene, a file, or a dictionary with the keys of a file"
         raise SceneError(Problem(key="scene", value=repr(scene)[:60], wrong="it is not a scene", allowed=allowed))
-    return SceneSource(document=_as_read(dict(scene)), file=None)
+    # The dictionary of a scene would have what was computed of it, too.
+    return SceneSource(document=_as_read(scene if is_scene(scene) else dict(scene)), file=None)
 
 
 def is_scene(value: Any) -> bool:

@@ -222,6 +222,13 @@ def test_a_dictionary_with_the_keys_of_a_file_is_read_as_the_file() -> None:
     assert wider.model_dump() == he.read(file, {"tank.width": 30.0}).model_dump() != read.model_dump()
 
 
+def test_a_scene_that_was_solved_can_be_changed() -> None:
+    # The waves, which are computed once, are kept beside its keys.
+    scene = he.read("swell")
+    he.solve(scene)
+    assert he.read(scene, {"title": "changed"}).model_dump() == he.read("swell", {"title": "changed"}).model_dump()
+
+
 def test_scenes_are_made_of_keywords_alone() -> None:
     with pytest.raises(TypeError, match="Tank takes keywords alone: length, gravity, ends, top"):
         he.Tank(10.0)  # type: ignore[misc]

@@ -128,7 +128,7 @@ def test_points_of_other_accuracies_share_no_liquid(key: str, values: tuple[floa
 )
 def test_only_what_does_not_touch_the_liquid_shares_it(key: str, value: float | str | bool, shared: bool) -> None:
     one, other = (physical_tank(closed_tank(read_scene("aquarium", change), "")) for change in ({}, {key: value}))
-    assert (repr(liquid_key(one.scaled())) == repr(liquid_key(other.scaled()))) is shared
+    assert (liquid_key(one.scaled()) == liquid_key(other.scaled())) is shared
 
 
 def test_mass_gravity_and_restoring_are_those_of_the_point(tanks: Tanks) -> None:
@@ -208,6 +208,22 @@ def test_estimates_are_made_where_asked_for(tanks: Tanks) -> None:
     scene = tanks.scene(tanks.beam(), modes=3, tolerance=1e-3)
     made = [sweep(scene, {RIGIDITY: [5e3]}, estimates=asked, follow=False) for asked in (False, True)]
     assert ["estimate_omega" in one.dataset for one in made] == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("float_in_two_liquids", {"accuracy.modes": 2, "accuracy.tolerance": 1e-2}),
+        ("open_plate", {"analysis": [{"kind": "response", "omega": [2.5, 3.0]}], "accuracy.tolerance": 1e-2}),
+        ("string_smooth", {"output.times": [0.5, 1.0]}),
+        ("catenary", {"analysis": [{"kind": "modes", "count": 2}]}),
+        ("swell", {}),
+    ],
+)
+def test_a_point_read_from_the_journal_has_the_summary_that_was_solved(name: str, changes: dict[str, Any]) -> None:
+    (point,) = sweep(read_scene(name, changes), {"title": ["a point"]}, follow=False).solved.points
+    assert point.summary is not None
+    assert json.loads(json.dumps(point.summary, allow_nan=False)) == point.summary
 
 
 def test_modes_that_are_not_resolved_are_told_like_a_missed_tolerance() -> None:

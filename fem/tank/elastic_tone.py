@@ -140,7 +140,9 @@ def _shares_by_kind(
         "interface wave" if above is not None else "surface wave" if below else "sloshing" for above, below in surfaces
     ]
     names, kinds = tuple(dict.fromkeys(["sloshing", *of_surfaces, *of_bodies])), of_bodies + of_surfaces
-    return names, np.array([[kind == name for name in names] for kind in kinds], dtype=float)
+    of_kind = np.array([[kind == name for name in names] for kind in kinds], dtype=float)
+    of_kind.flags.writeable = False
+    return names, of_kind
 
 
 def bending_fractions(modes: Sequence[Mode], bodies: tuple[Body, ...]) -> np.ndarray:

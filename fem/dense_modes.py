@@ -59,7 +59,7 @@ class DenseSolution:
             (shares, modes).
         iterations: restarts of the eigen-solver.
         projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
-        cell_errors: returns what `spectral_error.cell_errors` does, shape (modes, cells), from the numbers of modes;
+        liquid_errors: returns error estimates of the modes of some numbers, away from tips and at tips, shape (modes, 2);
             ``None`` where that takes their ψ.
     """
 
@@ -70,7 +70,7 @@ class DenseSolution:
     energies: Callable[[slice], np.ndarray]
     iterations: int = 1
     projection: np.ndarray | None = None
-    cell_errors: Callable[[list[int]], np.ndarray] | None = None
+    liquid_errors: Callable[[list[int]], np.ndarray] | None = None
 
 
 class DenseModes:

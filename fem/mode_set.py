@@ -62,7 +62,7 @@ class ModeSet:
         projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
         bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
-        cell_errors: see `DenseSolution.cell_errors`.
+        liquid_errors: see `DenseSolution.liquid_errors`.
     """
 
     eigenvalues: np.ndarray
@@ -77,4 +77,4 @@ class ModeSet:
     projection: np.ndarray | None = None
     eigenvectors: tuple[PETSc.Vec, ...] = ()
     bounds: np.ndarray | None = None
-    cell_errors: Callable[[list[int]], np.ndarray] | None = None
+    liquid_errors: Callable[[list[int]], np.ndarray] | None = None

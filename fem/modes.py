@@ -205,7 +205,7 @@ def _mode_set(
         iterations=found.iterations,
         solves=pencil.size,
         projection=found.projection[:count] if found.projection is not None else None,
-        cell_errors=found.cell_errors,
+        liquid_errors=found.liquid_errors,
     )
 
 

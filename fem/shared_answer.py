@@ -39,12 +39,13 @@ class SharedAnswer(LiquidAnswer):
     Attributes:
         bodies: number of the first unknowns, which belong to bodies.
         volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
-        cell_errors: error estimates of modes in each cell, from ζ; ``None`` where cells are curved.
+        liquid_errors: returns error estimates of modes from ζ, see `SharedErrors.away_and_at_tips`; ``None`` where cells
+            are curved.
     """
 
     bodies: int
     volumes: np.ndarray
-    cell_errors: Callable[[np.ndarray], np.ndarray] | None
+    liquid_errors: Callable[[np.ndarray], np.ndarray] | None
     _projections: dict[int, Projection] = field(default_factory=dict)
 
     @cached_property

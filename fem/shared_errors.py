@@ -26,19 +26,29 @@ _PRECISION = np.float32
 class SharedErrors:
     """Error estimates on straight cells, on one process."""
 
-    def __init__(self, liquid: LiquidSpace, answer: LiquidAnswer, grows: Callable[[], bool]) -> None:
-        """Begin without directions; `grows` tells whether motions beside them become some of them."""
+    def __init__(
+        self, liquid: LiquidSpace, answer: LiquidAnswer, at_tips: np.ndarray, grows: Callable[[], bool]
+    ) -> None:
+        """Begin without directions.
+
+        Args:
+            liquid: space of ψ.
+            answer: of the liquid to its surfaces.
+            at_tips: which cells are the innermost ones at a tip, shape (cells,).
+            grows: whether motions beside the directions become some of them.
+        """
         self._liquid, self._answer, self._grows = liquid, answer, grows
         self._coefficients, self._starts = straight_coefficients(liquid)
-        self._densities = liquid.energy_densities()
+        # What sums the energies of cells away from tips and at tips.
+        self._sums = np.column_stack([~at_tips, at_tips]) * liquid.energy_densities()[:, None]
         self._directions = np.empty((len(answer.added_mass), 0))
         self._momenta = self._directions
         _, cells, dim, polynomials = self._coefficients(np.empty((0, *liquid.space.dofmap.list.shape))).shape
         # Of each direction: of one polynomial after the other, then of one component of ∇ψ, then of one cell.
         self._table = np.empty((0, polynomials * dim, cells), dtype=_PRECISION)
 
-    def cells(self, displacements: np.ndarray) -> np.ndarray:
-        """Return what `cell_errors` does, shape (modes, cells).
+    def away_and_at_tips(self, displacements: np.ndarray) -> np.ndarray:
+        """Return the sums of `cell_errors` over the cells away from tips and over those at tips, shape (modes, 2).
 
         Args:
             displacements: ζ of modes at unit generalized mass, shape (n, modes).
@@ -55,7 +65,7 @@ class SharedErrors:
             found[beside] += self._rows(rest[:, beside])
         dim = self._liquid.tank.mesh.topology.dim
         energies = [np.einsum("mpc,mpc->mc", part, part) for part in np.split(found, dim * self._starts, axis=1)]
-        errors: np.ndarray = self._densities * missing_energy(*energies)
+        errors: np.ndarray = missing_energy(*energies) @ self._sums
         return errors
 
     def _add(self, displacements: np.ndarray) -> None:
@@ -79,4 +89,4 @@ class SharedErrors:
         potentials = self._answer.potentials @ displacements
         vectors = [PETSc.Vec().createWithArray(one, comm=PETSc.COMM_SELF) for one in potentials.T]
         found = self._coefficients(cell_values(self._liquid, vectors)).transpose(0, 3, 2, 1)
-        return found.reshape(len(vectors), -1, len(self._densities)).astype(_PRECISION)
+        return found.reshape(len(vectors), -1, len(self._sums)).astype(_PRECISION)

@@ -14,26 +14,26 @@ from hydroelastic.fem.shared_answer import SharedAnswer
 _AT_ONCE = 128
 
 
-class CellErrors:
-    """Error estimates of the modes of one problem, each made once; see `SharedErrors.cells`."""
+class LiquidErrors:
+    """Error estimates of the modes of one problem, each made once; see `SharedErrors.away_and_at_tips`."""
 
     def __init__(self, estimate: Callable[[np.ndarray], np.ndarray], displacements: np.ndarray) -> None:
         """Begin without any.
 
         Args:
-            estimate: returns those of some ζ, shape (modes, cells).
+            estimate: returns those of some ζ, shape (modes, 2).
             displacements: ζ of all modes, shape (n, modes).
         """
         self._estimate, self._displacements = estimate, displacements
         self._known: dict[int, np.ndarray] = {}
 
     def __call__(self, numbers: Sequence[int]) -> np.ndarray:
-        """Return the estimates of the modes of some numbers, shape (modes, cells)."""
+        """Return the estimates of the modes of some numbers, shape (modes, 2)."""
         self.estimate_together([(self, numbers)])
         return np.array([self._known[number] for number in numbers])
 
     @staticmethod
-    def estimate_together(asked: Iterable[tuple[CellErrors, Sequence[int]]]) -> None:
+    def estimate_together(asked: Iterable[tuple[LiquidErrors, Sequence[int]]]) -> None:
         """Estimate modes of some numbers of problems that share an answer, but those that are known."""
         missing = [(one, number) for one, numbers in asked for number in numbers if number not in one._known]
         for first in range(0, len(missing), _AT_ONCE):
@@ -69,7 +69,7 @@ def solved_together(pencils: Sequence[CoupledPencil], answer: SharedAnswer, coun
             displacements=lambda some: displacements[place][:, some],
             energies=lambda some: energies[place][:, some],
             projection=projection[place],
-            cell_errors=None if answer.cell_errors is None else CellErrors(answer.cell_errors, displacements[place]),
+            liquid_errors=None if answer.liquid_errors is None else LiquidErrors(answer.liquid_errors, displacements[place]),
         )
 
     return [one(place) for place in range(len(pencils))]

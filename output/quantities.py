@@ -212,21 +212,29 @@ class Group:
         Args:
             record: one record of the group itself. What a mapping lacks is left out.
         """
-        if not isinstance(record, Mapping):
-            return {part.key: _evaluated(part, part.of(record)) for part in self._in_summary}
+        is_mapping = isinstance(record, Mapping)
         return {
-            part.key: _evaluated(part, record[part.key] if function is None else function(record))
-            for part, function in self._with_functions
-            if function is not None or part.key in record
+            key: ready(record[key] if is_mapping else getattr(record, key)) if function is None else ready(function(record))
+            for key, function, ready in self._in_summary
+            if not is_mapping or function is not None or key in record
         }
 
     @cached_property
-    def _in_summary(self) -> tuple[Quantity | Group, ...]:
-        return tuple(part for part in self.parts if isinstance(part, Group) or part.in_summary)
+    def _in_summary(self) -> tuple[tuple[str, Callable[[Any], Any] | None, Callable[[Any], Any]], ...]:
+        """Key, function and conversion to types of JSON of each part: a sweep asks for tens of thousands of values."""
+        return tuple(
+            (part.key, part.record, part._found) if isinstance(part, Group) else (part.key, part.value, json_ready)
+            for part in self.parts
+            if isinstance(part, Group) or part.in_summary
+        )
 
-    @cached_property
-    def _with_functions(self) -> tuple[tuple[Quantity | Group, Callable[[Any], Any] | None], ...]:
-        return tuple((part, part.record if isinstance(part, Group) else part.value) for part in self._in_summary)
+    def _found(self, found: Any) -> Any:
+        """The values of a record, or of records, of the group."""
+        if found is None:
+            return None
+        if self.dimension and isinstance(found, Mapping):
+            return {label: self.evaluated(one) for label, one in found.items()}
+        return [self.evaluated(one) for one in found] if self.dimension else self.evaluated(found)
 
     def places(
         self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
@@ -291,13 +299,3 @@ def _as_written(unit: str) -> str:
     written = unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
     # With words between units a space separates these.
     return written if "," in written or " and " in written else written.replace(" ", "·")
-
-
-def _evaluated(part: Quantity | Group, found: Any) -> Any:
-    if isinstance(part, Quantity):
-        return json_ready(found)
-    if found is None:
-        return None
-    if part.dimension and isinstance(found, Mapping):
-        return {label: part.evaluated(one) for label, one in found.items()}
-    return [part.evaluated(one) for one in found] if part.dimension else part.evaluated(found)

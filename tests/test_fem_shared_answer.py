@@ -21,7 +21,7 @@ from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
-from hydroelastic.fem.shared_modes import CellErrors
+from hydroelastic.fem.shared_modes import LiquidErrors
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank import solve, together
 from hydroelastic.fem.tank.error_estimates import frequency_errors
@@ -61,7 +61,7 @@ def test_a_point_of_a_family_is_the_whole_problem(tanks: Tanks, liquids: SharedL
     for pencil in pencils(tanks, liquids, rigidity).values():
         answer = pencil.answer
         assert isinstance(answer, SharedAnswer)
-        assert answer.cell_errors is not None
+        assert answer.liquid_errors is not None
         # The same matrices as those of a single tank, which knows nothing of a family.
         alone = replace(pencil, answer=replace_by_plain(answer))
         found, whole = solve_modes(pencil, COUNT), solve_modes(alone, COUNT)
@@ -75,7 +75,7 @@ def test_a_point_of_a_family_is_the_whole_problem(tanks: Tanks, liquids: SharedL
         for below, (lower, upper) in enumerate(pairwise(whole.eigenvalues), 1):
             for shift in (lower + 1e-3 * (upper - lower), upper - 1e-3 * (upper - lower)):
                 assert count_below(pencil, float(shift)) == below
-        errors = answer.cell_errors(np.column_stack([mode.values for mode in found.modes]))
+        errors = answer.liquid_errors(np.column_stack([mode.values for mode in found.modes]))
         direct = cell_errors(pencil.liquid, [mode.potential for mode in whole.modes])
         assert errors.sum(axis=1) == pytest.approx(direct.sum(axis=1), rel=1e-2)
 
@@ -157,7 +157,7 @@ def test_tanks_that_are_attempted_together_are_those_attempted_alone(
     # They are gone on with: nothing is solved, counted or estimated again.
     for name in ("solve_field", "count_is_confirmed"):
         monkeypatch.setattr(solve, name, None)
-    monkeypatch.setattr(CellErrors, "estimate_together", staticmethod(lambda _asked: None))
+    monkeypatch.setattr(LiquidErrors, "estimate_together", staticmethod(lambda _asked: None))
     for tank, expected in zip(given, alone, strict=True):
         found = solve_tank(tank, tolerance=TOLERANCE, modes=4, liquids=liquids)
         assert found.modes.eigenvalues == pytest.approx(expected.modes.eigenvalues, rel=1e-12)

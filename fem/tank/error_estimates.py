@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import cache
 from math import ceil, log
 
 import numpy as np
-from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from petsc4py import PETSc
 
@@ -17,7 +16,7 @@ from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.fem.tank.field_solution import FieldSolution, Origin, Part
+from hydroelastic.fem.tank.field_solution import FieldSolution, Origin
 from hydroelastic.fem.tank.mesh import tip_points
 from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
@@ -89,14 +88,23 @@ def frequency_errors(
         tank: the dimensionless tank.
         infinite_frequency: whether the solution is that of the infinite-frequency limit.
     """
-    at_tips = _cells_at_tips(solution.mesh, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency)
-    cells, projection = np.empty((len(modes), len(at_tips))), np.zeros(len(modes))
+
+    @cache
+    def at_tips() -> np.ndarray:
+        half, rings = solution.half, resolution.tip_size is not None
+        return cells_at_tips(solution.mesh, tank, half=half, infinite_frequency=infinite_frequency, rings=rings)
+
+    away_and_at_tips, projection = np.empty((len(modes), 2)), np.zeros(len(modes))
     for number, part in enumerate(solution.parts):
         own = [place for place, (owner, _) in enumerate(origins) if owner == number]
-        cells[own] = _cell_errors(part, [modes[place] for place in own], [origins[place][1] for place in own])
+        if own and part.modes.liquid_errors is not None:
+            away_and_at_tips[own] = _finite(part.modes.liquid_errors([origins[place][1] for place in own]))
+        else:
+            potentials = [modes[place].potential for place in own]
+            away_and_at_tips[own] = _away_and_at(at_tips(), part.pencil.liquid, potentials)
         if part.modes.projection is not None:
             projection[own] = part.modes.projection.max(initial=0.0)
-    liquid, tips = _away_and_at(at_tips, cells, solution.mesh.mesh.comm)
+    liquid, tips = away_and_at_tips.T
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
@@ -111,43 +119,34 @@ def frequency_errors(
     )
 
 
-def _cell_errors(part: Part, modes: list[Mode], numbers: list[int]) -> np.ndarray:
-    """See `cell_errors` (collective)."""
-    if modes and part.modes.cell_errors is not None:
-        return part.modes.cell_errors(numbers)
-    return cell_errors(part.pencil.liquid, [mode.potential for mode in modes])
-
-
-def _cells_at_tips(
-    mesh: TankMesh, tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool
+def cells_at_tips(
+    mesh: TankMesh, tank: Tank, *, half: bool, infinite_frequency: bool, rings: bool = True
 ) -> np.ndarray:
-    """Which owned cells are the innermost ones at a tip, shape (cells,)."""
-    # Without rings there are none.
-    corners = np.empty((0, 2))
-    if resolution.tip_size is not None:
-        corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
-    return _cells_at(mesh.mesh, tuple(map(tuple, corners.tolist())))
+    """Return which owned cells are the innermost ones at a tip, shape (cells,).
 
-
-@lru_cache(maxsize=4)
-def _cells_at(mesh: Mesh, corners: tuple[tuple[float, ...], ...]) -> np.ndarray:
-    """As `cells_at`: tanks that share a liquid share its mesh."""
-    return cells_at(mesh, np.array(corners))
-
-
-def _away_and_at(at_tips: np.ndarray, cells: np.ndarray, comm: MPI.Comm) -> tuple[np.ndarray, np.ndarray]:
-    """Sum the energy errors of `cell_errors` away from tips and at tips, each of shape (potentials,) (collective).
-
-    Raises:
-        EigenSolverError: if an energy is not finite.
+    Args:
+        mesh: of the tank, or of its left half.
+        tank: the dimensionless tank.
+        half: whether the mesh is that of the left half.
+        infinite_frequency: whether it is for the infinite-frequency limit.
+        rings: whether it is graded towards the tips; without rings no cell is an innermost one.
     """
-    sums = np.array([cells @ at_tips, cells.sum(axis=1)])
-    comm.Allreduce(MPI.IN_PLACE, sums)
-    tips, whole = sums
-    if not np.all(np.isfinite(whole)):
+    points = tip_points(tank, half=half, infinite_frequency=infinite_frequency) if rings else np.empty((0, 2))
+    return cells_at(mesh.mesh, points)
+
+
+def _away_and_at(at_tips: np.ndarray, liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
+    """Sums of `cell_errors` away from tips and at tips, shape (potentials, 2) (collective)."""
+    sums: np.ndarray = cell_errors(liquid, potentials) @ np.column_stack([~at_tips, at_tips])
+    liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, sums)
+    return _finite(sums)
+
+
+def _finite(energies: np.ndarray) -> np.ndarray:
+    if not np.all(np.isfinite(energies)):
         # Comparisons of NaN with a tolerance are false.
         raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")
-    return whole - tips, tips
+    return energies
 
 
 def added_mass_errors(
@@ -169,8 +168,9 @@ def added_mass_errors(
         resolution: resolution of the mesh.
         half: whether the mesh is that of the left half of the tank.
     """
-    at_tips = _cells_at_tips(liquid.tank, tank, resolution, half=half, infinite_frequency=True)
-    away, tips = _away_and_at(at_tips, cell_errors(liquid, potentials), liquid.tank.mesh.comm)
+    rings = resolution.tip_size is not None
+    at_tips = cells_at_tips(liquid.tank, tank, half=half, infinite_frequency=True, rings=rings)
+    away, tips = _away_and_at(at_tips, liquid, potentials).T
     return FrequencyErrors(
         liquid=away / added_mass + boundary_error(liquid.tank, tank),
         tips=tips / added_mass,

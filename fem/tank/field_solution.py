@@ -213,18 +213,16 @@ def _rounding_limit(parts: list[Part]) -> float:
 
 
 def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Part], count: int) -> FieldSolution:
-    limit = _rounding_limit(parts)
-    ordered = sorted(
-        (float(value), number, index)
-        for number, part in enumerate(parts)
-        for index, value in enumerate(part.modes.eigenvalues)
-        if value <= limit
-    )[:count]
-    origins = tuple((number, index) for _, number, index in ordered)
+    values = np.concatenate([part.modes.eigenvalues for part in parts])
+    # Of equal ones that of the first part comes first.
+    order = np.argsort(values, kind="stable")[: min(count, np.count_nonzero(values <= _rounding_limit(parts)))]
+    places = [(number, index) for number, part in enumerate(parts) for index in range(len(part.modes.eigenvalues))]
+    origins = tuple(places[place] for place in order)
     bodies = whole_bodies(tank, shapes)
     extensions = [extension(tank, bodies, part.parity, len(part.pencil.surfaces)) for part in parts]
-    of_parts = [part.modes.elastic_amplitudes @ one.amplitudes.T for part, one in zip(parts, extensions, strict=True)]
-    amplitudes = [of_parts[number][index] for number, index in origins]
+    amplitudes = np.concatenate(
+        [part.modes.elastic_amplitudes @ one.amplitudes.T for part, one in zip(parts, extensions, strict=True)]
+    )
 
     def completed(place: int) -> Mode:
         number, index = origins[place]
@@ -236,8 +234,8 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
         parts=tuple(parts),
         bodies=bodies,
         modes=ModeSet(
-            eigenvalues=np.array([value for value, _, _ in ordered]),
-            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(body.size for body in bodies)),
+            eigenvalues=values[order],
+            elastic_amplitudes=amplitudes[order],
             modes=(),
             completed=completed,
             zero_modes=sum(part.modes.zero_modes for part in parts),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
@@ -19,6 +20,7 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.shared_errors import SharedErrors
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.tank.error_estimates import cells_at_tips
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, part_models
 from hydroelastic.fem.tank.released_beam import ReleasedModes, released_modes
@@ -178,21 +180,25 @@ class SharedLiquids(Liquids):
         key = (id(mesh), degree, shapes, half, infinite_frequency)
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
-            self._pencils[key] = {parity: _shared(pencil, lambda: self.growing) for parity, pencil in made.items()}
+            at_tips = cells_at_tips(mesh, tank, half=half, infinite_frequency=infinite_frequency)
+            self._pencils[key] = {
+                parity: _shared(pencil, at_tips, lambda: self.growing) for parity, pencil in made.items()
+            }
         return {
             parity: replace(pencil, bodies=_bodies(tank, shapes, parity))
             for parity, pencil in self._pencils[key].items()
         }
 
 
-def _shared(pencil: CoupledPencil, grows: Callable[[], bool]) -> CoupledPencil:
+def _shared(pencil: CoupledPencil, at_tips: np.ndarray, grows: Callable[[], bool]) -> CoupledPencil:
     answer = pencil.answer or answered(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0])))
     if answer is None or pencil.size == pencil.body_size:
         # In the infinite-frequency limit no surface moves by itself: there are no gravity modes.
         return replace(pencil, answer=answer)
-    errors = SharedErrors(pencil.liquid, answer, grows).cells if is_straight(pencil.liquid.tank.mesh) else None
-    of_surfaces = pencil.volumes[:, pencil.body_size :] @ answer.root
-    shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, cell_errors=errors)
+    of_surfaces, errors = pencil.volumes[:, pencil.body_size :] @ answer.root, None
+    if is_straight(pencil.liquid.tank.mesh):
+        errors = SharedErrors(pencil.liquid, answer, at_tips, grows).away_and_at_tips
+    shared = SharedAnswer(**vars(answer), bodies=pencil.body_size, volumes=of_surfaces, liquid_errors=errors)
     return replace(pencil, answer=shared)
 
 

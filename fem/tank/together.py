@@ -15,7 +15,7 @@ from hydroelastic.fem.bodies.registry import toned_bodies
 from hydroelastic.fem.dense_modes import DenseSolution
 from hydroelastic.fem.inertia import shared_counts
 from hydroelastic.fem.shared_answer import SharedAnswer
-from hydroelastic.fem.shared_modes import CellErrors, solved_together
+from hydroelastic.fem.shared_modes import LiquidErrors, solved_together
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.elastic_tone import participations
@@ -147,8 +147,8 @@ def _asked(tank: Tank, field: FieldSolution, modes: int) -> list[Origin]:
 def _estimate(fields: list[FieldSolution], asked: list[list[Origin]]) -> None:
     """Estimate the errors of some modes of each."""
     for _, places in _by_answer(fields):
-        CellErrors.estimate_together(
+        LiquidErrors.estimate_together(
             (errors, [index for part, index in asked[place] if part == number])
             for place, number in places
-            if isinstance(errors := fields[place].parts[number].modes.cell_errors, CellErrors)
+            if isinstance(errors := fields[place].parts[number].modes.liquid_errors, LiquidErrors)
         )

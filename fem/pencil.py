@@ -9,7 +9,7 @@ the potential's unknowns on the same surface.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Generic, TypeVar
 
@@ -126,6 +126,12 @@ class CoupledPencil(Generic[Unknowns]):
             first += body.size
         return mass
 
+    def with_bodies(self, bodies: tuple[Body, ...]) -> CoupledPencil[Unknowns]:
+        """Return the problem of other bodies with the same loads on the liquid."""
+        other = replace(self, bodies=bodies)
+        vars(other)["body_volumes"] = self.body_volumes
+        return other
+
     @cached_property
     def volumes(self) -> np.ndarray:
         """Volumes of the constraints, on one process, shape (constraints, unknowns)."""
@@ -142,25 +148,23 @@ class CoupledPencil(Generic[Unknowns]):
         return np.flatnonzero(self.body_stiffness == 0.0)
 
     @cached_property
-    def rigid_volumes(self) -> np.ndarray:
-        """Volume that each of them takes from each constrained layer, shape (motions, constraints) (collective).
+    def body_volumes(self) -> np.ndarray:
+        """Volume that each body unknown takes from each constrained layer, shape (body unknowns, constraints)
+        (collective).
 
         Pitch displaces none; values within round-off are set to zero.
         """
-        if not len(self.free_rigid) or not self.constraints:
-            return np.empty((len(self.free_rigid), len(self.constraints)))
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
-        largest = self.constraints[0].largest
-        table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
+        table = np.array(volumes).reshape(len(volumes), self.body_size).T
+        largest = max((constraint.largest for constraint in self.constraints), default=0.0)
         return np.where(np.abs(table) > _NO_VOLUME * largest, table, 0.0)
 
     @cached_property
     def rigid_constraints(self) -> tuple[np.ndarray, int]:
         """Orthogonal combinations of the constraints as columns, and the number of the first ones that rigid motions
         enter (collective)."""
-        if not self.rigid_volumes.size:
-            return np.eye(len(self.constraints)), 0
-        return _combinations(tuple(map(tuple, self.rigid_volumes.tolist())))
+        volumes = self.body_volumes[self.free_rigid]
+        return _combinations(tuple(map(tuple, volumes.tolist()))) if volumes.size else (np.eye(len(self.constraints)), 0)
 
     @property
     def zero_mode_count(self) -> int:

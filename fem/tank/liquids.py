@@ -185,7 +185,7 @@ class SharedLiquids(Liquids):
                 parity: _shared(pencil, at_tips, lambda: self.growing) for parity, pencil in made.items()
             }
         return {
-            parity: replace(pencil, bodies=_bodies(tank, shapes, parity))
+            parity: pencil.with_bodies(_bodies(tank, shapes, parity))
             for parity, pencil in self._pencils[key].items()
         }
 

@@ -66,10 +66,10 @@ class ReleasedModes:
 
 
 def released_modes(tanks: Sequence[Tank], count: int) -> list[ReleasedModes | None]:
-    """Solve the limit of some tanks in the first dry modes of their beams.
+    """Solve the limit of tanks that share one liquid in the first dry modes of their beams.
 
     Args:
-        tanks: dimensionless tanks.
+        tanks: dimensionless tanks, one or more, of one `liquid_key`.
         count: number of dry modes.
 
     Returns:
@@ -77,17 +77,18 @@ def released_modes(tanks: Sequence[Tank], count: int) -> list[ReleasedModes | No
         or is too shallow for the expansion.
     """
     found: list[ReleasedModes | None] = [None] * len(tanks)
+    added_mass = _added_mass(tanks[0], count)
+    if added_mass is None:
+        return found
     # Without hydrostatic restoring two motions have no stiffness, and are condensed.
-    alike: dict[bytes, list[tuple[int, Body, np.ndarray]]] = {}
+    alike: dict[bytes, list[tuple[int, Body]]] = {}
     for place, tank in enumerate(tanks):
-        added_mass = _added_mass(tank, count)
-        if added_mass is not None:
-            body = body_model(tank, 0).moving(count, None)
-            alike.setdefault((body.stiffness == 0.0).tobytes(), []).append((place, body, added_mass))
+        body = body_model(tank, 0).moving(count, None)
+        alike.setdefault((body.stiffness == 0.0).tobytes(), []).append((place, body))
     for group in alike.values():
-        places, bodies, masses = zip(*group, strict=True)
+        places, bodies = zip(*group, strict=True)
         stiffness = np.array([body.stiffness for body in bodies])
-        inverses, amplitudes = _solved(stiffness, np.array([body.mass for body in bodies]) + masses)
+        inverses, amplitudes = _solved(stiffness, np.array([body.mass for body in bodies]) + added_mass)
         energies = stiffness[:, None, :] * amplitudes**2 * inverses[:, :, None]
         truncation = omitted(energies[:, :, elastic_places(bodies[0].dofs)])
         for number, place in enumerate(places):

@@ -59,8 +59,8 @@ class DenseSolution:
             (shares, modes).
         iterations: restarts of the eigen-solver.
         projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
-        liquid_errors: returns error estimates of the modes of some numbers, away from tips and at tips, shape (modes, 2);
-            ``None`` where that takes their ψ.
+        liquid_errors: returns error estimates of the modes of some numbers, away from tips and at tips, shape
+            (modes, 2); ``None`` where that takes their ψ.
     """
 
     inverses: np.ndarray

@@ -164,7 +164,9 @@ class CoupledPencil(Generic[Unknowns]):
         """Orthogonal combinations of the constraints as columns, and the number of the first ones that rigid motions
         enter (collective)."""
         volumes = self.body_volumes[self.free_rigid]
-        return _combinations(tuple(map(tuple, volumes.tolist()))) if volumes.size else (np.eye(len(self.constraints)), 0)
+        if not volumes.size:
+            return np.eye(len(self.constraints)), 0
+        return _combinations(tuple(map(tuple, volumes.tolist())))
 
     @property
     def zero_mode_count(self) -> int:

@@ -39,8 +39,8 @@ class SharedAnswer(LiquidAnswer):
     Attributes:
         bodies: number of the first unknowns, which belong to bodies.
         volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
-        liquid_errors: returns error estimates of modes from ζ, see `SharedErrors.away_and_at_tips`; ``None`` where cells
-            are curved.
+        liquid_errors: returns error estimates of modes from ζ, see `SharedErrors.away_and_at_tips`; ``None`` where
+            cells are curved.
     """
 
     bodies: int

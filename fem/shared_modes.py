@@ -60,6 +60,7 @@ def solved_together(pencils: Sequence[CoupledPencil], answer: SharedAnswer, coun
     found = dense.completed(1.0 / np.maximum(inverses[:, :count], np.finfo(float).tiny), vectors)
     displacements, energies = dense.displacements(found, slice(None)), dense.energies(found, slice(None))
     amplitudes, projection = dense.amplitudes(found), projection_errors(inverses, found.residuals)
+    estimate = answer.liquid_errors
 
     def one(place: int) -> DenseSolution:
         return DenseSolution(
@@ -69,7 +70,7 @@ def solved_together(pencils: Sequence[CoupledPencil], answer: SharedAnswer, coun
             displacements=lambda some: displacements[place][:, some],
             energies=lambda some: energies[place][:, some],
             projection=projection[place],
-            liquid_errors=None if answer.liquid_errors is None else LiquidErrors(answer.liquid_errors, displacements[place]),
+            liquid_errors=None if estimate is None else LiquidErrors(estimate, displacements[place]),
         )
 
     return [one(place) for place in range(len(pencils))]

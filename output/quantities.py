@@ -214,7 +214,7 @@ class Group:
         """
         is_mapping = isinstance(record, Mapping)
         return {
-            key: ready(record[key] if is_mapping else getattr(record, key)) if function is None else ready(function(record))
+            key: ready(_taken(key, function, record))
             for key, function, ready in self._in_summary
             if not is_mapping or function is not None or key in record
         }

@@ -185,8 +185,7 @@ class SharedLiquids(Liquids):
                 parity: _shared(pencil, at_tips, lambda: self.growing) for parity, pencil in made.items()
             }
         return {
-            parity: pencil.with_bodies(_bodies(tank, shapes, parity))
-            for parity, pencil in self._pencils[key].items()
+            parity: pencil.with_bodies(_bodies(tank, shapes, parity)) for parity, pencil in self._pencils[key].items()
         }
 
 

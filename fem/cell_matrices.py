@@ -27,6 +27,11 @@ from hydroelastic.physics.geometry import PLANE, Geometry
 # The term m² ψq has two degrees more than ∇ψ·∇q, and 1/r is no polynomial; beside the axis ψq/r is one.
 _TRANSVERSE_QUADRATURE = 4
 
+# Triangles are similar if ratios of their sides agree to so many digits; small ones are to the rounding of coordinates.
+_DIGITS = 12
+# With more shapes than this part of the cells the copies for all cells take longer than they save.
+_FEW_SHAPES = 0.9
+
 TOGETHER = 512
 """Number of cells that are integrated at once."""
 
@@ -55,8 +60,7 @@ class CellMatrices:
 
     @cached_property
     def _condensed(self) -> tuple[np.ndarray, np.ndarray]:
-        numbering = self.numbering
-        cells = owned_cells(numbering.space.mesh)
+        numbering, (cells, alike) = self.numbering, self._shapes()
         outside, inside = len(numbering.outside), len(numbering.inside)
         laplace, extension = np.empty((len(cells), outside, outside)), np.empty((len(cells), inside, outside))
         for first in range(0, len(cells), TOGETHER):
@@ -65,7 +69,22 @@ class CellMatrices:
         if not self.geometry.transverse:
             # A constant has no energy. Long waves over a thin layer, with little in each cell, keep their digits.
             laplace[:, range(outside), range(outside)] -= laplace.sum(axis=2)
-        return laplace, extension
+        return laplace[alike], extension[alike]
+
+    def _shapes(self) -> tuple[np.ndarray, np.ndarray | slice]:
+        """Owned cells of different matrices, and the index among them for every owned cell.
+
+        In the plane similar triangles have the same G, as most of those in the rings around a tip.
+        """
+        mesh = self.numbering.space.mesh
+        cells = owned_cells(mesh)
+        if self._more or mesh.topology.dim != 2:
+            return cells, slice(None)
+        x, y = np.moveaxis(self.straight[0], 2, 0)
+        sides = x + 1j * y
+        ratios = np.round(sides[:, 1] / sides[:, 0], _DIGITS)
+        _, first, alike = np.unique(ratios, return_index=True, return_inverse=True)
+        return (cells[first], alike) if len(first) < _FEW_SHAPES * len(cells) else (cells, slice(None))
 
     def _full(self, cells: np.ndarray) -> np.ndarray:
         """All of the matrices, the unknowns before those inside."""

@@ -228,7 +228,7 @@ def dense_potentials(
     potentials: np.ndarray = answer.potentials @ displacements
     layer_of = pencil.liquid.owned_layer_of
     for constraint, pressure in zip(pencil.constraints, pressures, strict=True):
-        potentials[layer_of == constraint.layer] += pressure / constraint.density
+        potentials += np.outer(layer_of == constraint.layer, pressure / constraint.density)
     return potentials
 
 

@@ -90,7 +90,7 @@ class Numbering:
         comm, own = self.space.mesh.comm, len(self.owned_dofs)
         entries = np.zeros((1, len(self.numbers)))
         for dofs, _ in blocks:
-            np.add.at(entries[0], dofs, dofs.shape[1])
+            entries[0] += dofs.shape[1] * np.bincount(dofs.ravel(), minlength=len(self.numbers))
         most = self.summed(entries)[0].astype(PETSc.IntType)
         size = (own, PETSc.DETERMINE)
         matrix = PETSc.Mat().createAIJ((size, size), comm=comm)
@@ -98,8 +98,8 @@ class Numbering:
         others = matrix.getSize()[0] - own
         matrix.setPreallocationNNZ((np.minimum(most, own), np.minimum(most, others)))
         for dofs, values in blocks:
-            for row, block in zip(self.numbers[dofs].astype(PETSc.IntType), values, strict=True):
-                matrix.setValues(row, row, block, addv=PETSc.InsertMode.ADD_VALUES)
+            rows = np.ascontiguousarray(self.numbers[dofs], dtype=PETSc.IntType)
+            matrix.setValuesRCV(rows, rows, np.ascontiguousarray(values), addv=PETSc.InsertMode.ADD_VALUES)
         matrix.assemble()
         return matrix
 

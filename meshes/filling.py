@@ -18,6 +18,9 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 
 Key = int | tuple[int, int]
 
+# gmsh's types of elements.
+_EDGE, _TRIANGLE = 1, 2
+
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
@@ -66,6 +69,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
         drawing = _Drawing(points)
         surfaces = [drawing.surface(loop) for loop in loops]
         gmsh.model.geo.synchronize()
+        drawing.mesh_lines()
         for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
             gmsh.option.setNumber(f"Mesh.{option}", 0)
         gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
@@ -130,10 +134,19 @@ class _Drawing:
             # gmsh, whose tags begin with 1, is given them as the first loop passes them.
             way = 1 if line.forward else -1
             lines = [int(gmsh.model.geo.addLine(1 + a, 1 + b)) for a, b in pairwise(chain[::way])]
-            for one in lines:
-                gmsh.model.geo.mesh.setTransfiniteCurve(one, 2)
             self._lines[line.key] = [way * one for one in lines[::way]]
         return self._lines[line.key]
+
+    def mesh_lines(self) -> None:
+        """Make each line an element, without gmsh, which would integrate along it in hundreds of steps."""
+        gmsh.option.setNumber("Mesh.MeshOnlyVisible", 1)
+        gmsh.model.setVisibility(gmsh.model.getEntities(1), 0)
+        gmsh.model.mesh.generate(1)  # nodes at the points alone
+        gmsh.option.setNumber("Mesh.MeshOnlyVisible", 0)
+        gmsh.option.setNumber("Mesh.MeshOnlyEmpty", 1)
+        for key, lines in self._lines.items():
+            for line, (start, end) in zip(lines, pairwise(1 + self._chains[key]), strict=True):
+                gmsh.model.mesh.addElementsByType(abs(line), _EDGE, [], [start, end] if line > 0 else [end, start])
 
     def filling(self, surfaces: list[int]) -> Filling:
         """Read gmsh's mesh into arrays with nodes numbered from 0."""
@@ -142,7 +155,7 @@ class _Drawing:
         order[tags.astype(np.int64)] = np.arange(len(tags))
         cells = []
         for surface in surfaces:
-            _, nodes = gmsh.model.mesh.getElementsByType(2, surface)
+            _, nodes = gmsh.model.mesh.getElementsByType(_TRIANGLE, surface)
             cells.append(order[nodes.astype(np.int64)].reshape(-1, 3))
         points = coordinates.reshape(-1, 3)[:, :2].copy()
         return Filling(points=points, cells=cells, chains=self._chains, ends=self._nodes)

@@ -7,7 +7,7 @@ counts the modes below ω well enough to choose a mesh; the a-posteriori estimat
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import exp, log, pi, tanh
 
@@ -61,10 +61,13 @@ class LevelPiece:
 
 
 def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
-    """The pieces of the still levels that carry waves, from the bottom up and from left to right."""
-    return tuple(
-        moving for level in tank.levels for piece in level.pieces for moving in moving_parts(tank, level, piece)
-    )
+    """The pieces of the still levels that carry waves, those of one dispersion as one of their total length."""
+    alike: dict[object, LevelPiece] = {}
+    for level in tank.levels:
+        for moving in (part for piece in level.pieces for part in moving_parts(tank, level, piece)):
+            kind = moving.dispersion
+            alike[kind] = replace(moving, length=alike[kind].length + moving.length) if kind in alike else moving
+    return tuple(alike.values())
 
 
 def moving_parts(tank: Tank, level: StillLevel, piece: Piece) -> tuple[LevelPiece, ...]:
@@ -96,18 +99,14 @@ def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> flo
 
 def _mode_count(pieces: tuple[LevelPiece, ...]) -> Callable[[float], float]:
     """`modes_below` of λ alone."""
-    # Pieces of one dispersion have one wavenumber.
-    kinds = [piece.dispersion for piece in pieces]
-    alike = dict(zip(kinds, pieces, strict=True))
-    waves = [(list(alike).index(kind), piece.length) for kind, piece in zip(kinds, pieces, strict=True)]
 
     def count(squared_frequency: float) -> float:
-        wavenumbers = [piece.wavenumber(squared_frequency) for piece in alike.values()]
-        return sum(wavenumbers[kind] * length / pi for kind, length in waves)
+        return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
 
     return count
 
 
+@lru_cache(maxsize=16)
 def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:
     """Approximate λ of a mode, counted from 1; an overestimate by about one mode."""
     # End effects shift modes upwards.

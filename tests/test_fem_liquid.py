@@ -12,7 +12,7 @@ import pytest
 from dolfinx import fem
 from petsc4py import PETSc
 
-from hydroelastic.fem.cell_matrices import CellMatrices
+from hydroelastic.fem.cell_matrices import CellMatrices, condensed
 from hydroelastic.fem.liquid import LiquidSolver, cell_values, closed_layer, constrained_dofs
 from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.numbering import numbered
@@ -263,6 +263,19 @@ def test_condensed_unknowns_inside_of_cells_follow_as_solved(tanks: Any) -> None
     (found,) = cell_values(condensed, [solved(pencil, load)])
     # The operator's condition times a double's rounding.
     assert np.abs(found - expected).max() <= ROUND_OFF * np.abs(expected).max()
+
+
+def test_similar_triangles_share_their_matrices(tanks: Any) -> None:
+    """Against each cell's own matrix, condensed: in the rings around both tips most cells are similar to others."""
+    liquid = tanks.pencil(tanks.scene(tanks.beam()), degree=6, size=0.25).liquid
+    numbering = liquid.numbering
+    cells = np.arange(len(liquid.cells.laplace), dtype=np.int32)
+    full = liquid.cells.integrals(cells, np.ones((len(cells), 1, 2)))
+    laplace, extension = condensed(full, len(numbering.outside))
+    different = len(np.unique(liquid.cells.laplace, axis=0))
+    assert liquid.tank.mesh.comm.allreduce(different) < liquid.tank.cell_count
+    assert liquid.cells.laplace == pytest.approx(laplace, rel=0.0, abs=1e-10 * np.abs(laplace).max(initial=0.0))
+    assert liquid.cells.extension == pytest.approx(extension, rel=0.0, abs=1e-10)
 
 
 def test_a_matrix_that_is_not_positive_definite_is_refused(water: CoupledPencil) -> None:

@@ -9,13 +9,11 @@ import click
 
 from hydroelastic.output.folder import check_output
 from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
+from hydroelastic.scenes.program import RANK_VARIABLES
 from hydroelastic.scenes.read import STANDARD_INPUT, scene_path
 
 NOT_TO_TOLERANCE = 3
 """Exit code where something was not solved to its tolerance."""
-
-RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
-"""Where MPI launchers say which process this is; without one there is only one process."""
 
 
 def file_of_scene(scene: str) -> Path | None:

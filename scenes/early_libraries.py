@@ -12,22 +12,29 @@ from pathlib import Path
 from sysconfig import get_config_var
 from threading import Thread
 
+from hydroelastic.scenes.program import RANK_VARIABLES
+
 MPI = "mpi4py.MPI"
 """The longest to load: Open MPI's library for Omni-Path sleeps for a tenth of a second to measure the processor."""
 DOLFINX = "dolfinx.cpp"
 GMSH = "gmsh"
 
+# UCX, which comes with many MPIs, would rewrite functions of libc and move the end of the heap, to see that it learns of
+# it, while other threads use both: one run in a hundred crashed. It is for network cards, between several processes.
+_MEMORY_EVENTS = "UCX_MEM_EVENTS"
+
 
 def load_early(*modules: str) -> None:
     """Begin to load the libraries of modules, one after the other; an import of them waits until they are loaded.
 
-    What is not found is left to the import, which tells.
+    What is not found is left to the import, which tells. One of several processes that MPI has started loads nothing.
 
     Args:
         modules: any of `MPI`, `DOLFINX` and `GMSH`.
     """
     missing = [module for module in modules if module not in sys.modules]
-    if missing:
+    if missing and not os.environ.keys() & set(RANK_VARIABLES):
+        os.environ.setdefault(_MEMORY_EVENTS, "no")
         # Not a daemon: the process must not end within `dlopen`. Where no thread may be started, nothing is lost.
         with suppress(RuntimeError):
             Thread(target=_load, args=missing).start()

@@ -19,8 +19,8 @@ MPI = "mpi4py.MPI"
 DOLFINX = "dolfinx.cpp"
 GMSH = "gmsh"
 
-# UCX, which comes with many MPIs, would rewrite functions of libc and move the end of the heap, to see that it learns of
-# it, while other threads use both: one run in a hundred crashed. It is for network cards, between several processes.
+# UCX, which comes with many MPIs, would rewrite functions of libc and move the end of the heap, to see that it learns
+# of it, while other threads use both: one run in a hundred crashed. It is for network cards, between processes.
 _MEMORY_EVENTS = "UCX_MEM_EVENTS"
 
 

@@ -1,4 +1,4 @@
-"""Libraries that are loaded in a thread are those of their modules, which are not imported by it, and disturb nothing."""
+"""Libraries that are loaded in a thread are those of their modules, which it does not import; they disturb nothing."""
 
 from __future__ import annotations
 

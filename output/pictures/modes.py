@@ -30,9 +30,9 @@ from hydroelastic.output.pictures.page import (
     place,
     round_ticks,
     save,
-    shrink,
     tick_labels,
     titled,
+    write,
     write_caption,
     write_keys,
 )
@@ -148,15 +148,12 @@ def draw_overview(
     tops = [height - 15.0 - (index // columns) * row for index in range(len(pictures))]
     lefts = [_MARGIN + (index % columns) * (panel + _MARGIN) for index in range(len(pictures))]
     titles = [
-        figure.text((left + 0.5 * panel) / WIDTH, (top - 42.0) / height, picture.title, size=19.0 * POINT, ha="center")
+        write(figure, picture.title, top - 37.0, size=19.0, x=left + 0.5 * panel, room=panel)
         for picture, left, top in zip(pictures, lefts, tops, strict=True)
     ]
+    smallest = min(title.size for title in titles)
     for title in titles:
-        title.set_parse_math(False)
-        shrink(title, panel / WIDTH * figure.bbox.width)
-    smallest = min(title.get_fontsize() for title in titles)
-    for title in titles:
-        title.set_fontsize(smallest)
+        title.size = smallest
     write_keys(figure, keys(key_names(pictures, field_name(pictures[0]), vectors=False)), 66.0)
     write_caption(figure, overview_note(pictures, views))
     page = pixels(figure)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import colormaps, rcParams
+from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
@@ -25,13 +25,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN, MarkerStyle
 from matplotlib.path import Path as PathOfMarker
-from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import IdentityTransform
 from numpy.typing import NDArray
 from PIL.PngImagePlugin import putchunk
 
 from hydroelastic.output.pictures.colours import GREY, INK
+from hydroelastic.output.pictures.letters import TextLine, unhinted_letters
 
 WIDTH = 1600.0
 """Of the page to which sizes refer."""
@@ -96,7 +96,7 @@ def pixels(figure: Figure) -> NDArray[np.uint8]:
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
     # The canvas would be cleared before, though its background, or what covers it all, is drawn.
-    with _letters():
+    with unhinted_letters():
         figure.draw(canvas.get_renderer())
     return np.asarray(canvas.buffer_rgba())
 
@@ -109,7 +109,7 @@ def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
     for title in titles:
         heading[:] = untitled
         line = write_title(figure, title)
-        with _letters():
+        with unhinted_letters():
             figure.draw_artist(line)
         line.remove()
         pages.append(page.copy())
@@ -175,44 +175,30 @@ def saving() -> Iterator[None]:
             _THREAD.reset(before)
 
 
-@contextmanager
-def _letters() -> Iterator[None]:
-    """Draw letters where they belong: hinting would move small ones to whole pixels, a quarter nearer to each other.
-
-    The context of matplotlib copies all settings, which takes longer than a line of text.
-    """
-    hinting = rcParams["text.hinting"]
-    rcParams["text.hinting"] = "no_hinting"
-    try:
-        yield
-    finally:
-        rcParams["text.hinting"] = hinting
-
-
-def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK) -> Text:
-    """Write a centred line at a height of a page, smaller if it would not fit."""
-    _, height = figure.get_size_inches() * _PER_INCH
-    # A dollar sign would begin a formula.
-    line = figure.text(0.5, y / height, text, size=size * POINT, color=colour, ha="center", va="center")
-    line.set_parse_math(False)
-    shrink(line, figure.bbox.width * (1.0 - 40.0 / WIDTH))
+def write(
+    figure: Figure,
+    text: str,
+    y: float,
+    *,
+    size: float,
+    colour: str = INK,
+    x: float = 0.5 * WIDTH,
+    room: float = WIDTH - 40.0,
+) -> TextLine:
+    """Write a centred line at a height of a page, smaller if it would not fit into its room."""
+    scale = figure.bbox.width / WIDTH
+    line = TextLine(text, scale * x, scale * y, size=scale * size, colour=colour, room=scale * room)
+    figure.add_artist(line)
     return line
 
 
-def shrink(line: Text, room: float) -> None:
-    """Make a line of text as small as fits into so many pixels of the image."""
-    with _letters():
-        width = max(line.get_window_extent().width, 1.0)
-    line.set_fontsize(float(line.get_fontsize()) * min(1.0, room / width))
-
-
-def write_title(figure: Figure, text: str) -> Text:
+def write_title(figure: Figure, text: str) -> TextLine:
     """Write a title at the top of a page."""
     _, height = figure.get_size_inches() * _PER_INCH
     return write(figure, text, height - 42.0, size=30.0)
 
 
-def write_caption(figure: Figure, text: str) -> Text:
+def write_caption(figure: Figure, text: str) -> TextLine:
     """Write what the reader must know to measure at the bottom of a page."""
     return write(figure, text, 30.0, size=19.0, colour=GREY)
 
@@ -292,11 +278,14 @@ class ColourBar:
         y = np.full(len(x), self._bottom)
         marks = Line2D(x, y, ls="none", marker=MarkerStyle(TICKDOWN), markersize=_TICK, mew=0.8, **_IN_PIXELS)
         figure.add_artist(marks)
-        below = self._bottom - (_TICK + 3.5) / 72.0 * figure.dpi
+        size = 20.0 * figure.bbox.width / WIDTH
+        middle = self._bottom - (_TICK + 3.5) / 72.0 * figure.dpi - 0.5 * size
         numbers = [
-            figure.text(at, below, label, size=20.0 * POINT, ha="center", va="top", **_IN_PIXELS)
+            TextLine(label, at, middle, size=size, colour="black")
             for at, label in zip(x, tick_labels(ticks), strict=True)
         ]
+        for number in numbers:
+            figure.add_artist(number)
         return [marks, *numbers]
 
 

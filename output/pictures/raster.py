@@ -138,8 +138,7 @@ class Raster:
             lines = np.repeat(lines, lengths[runs], axis=0).reshape(-1, width, 2)
             shade = lines[:, :, 1] * x
             shade += lines[:, :, 0]
-            np.clip(shade, 0.0, len(shades) - 1.0, out=shade)
-            image[top : top + _STRIP] = shades[shade.astype(np.intp)]
+            shades.take(shade.astype(np.intp), out=image[top : top + _STRIP], mode="clip")
         return image.view(np.uint8).reshape(height, width, 4)
 
 

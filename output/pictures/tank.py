@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
+from matplotlib.transforms import IdentityTransform
 from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
 
@@ -219,11 +220,25 @@ def _draw_vectors(
     lengths = None if largest is None else np.hypot(*at_places(largest)[inside].T)
     vectors = drawn_vectors(sampled[inside], spacing, lengths)
     seen = np.hypot(*vectors.T) > 0.1 * spacing
-    axes.quiver(
-        across[inside][seen], up[inside][seen], *vectors[seen].T,
-        angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=_ARROW,
-        units="inches", width=2.0 * POINT / 72.0, headwidth=3.8, headlength=4.5, headaxislength=4.5, minlength=0.0,
-    )  # fmt: skip
+    centres = np.column_stack([across[inside][seen], up[inside][seen]])
+    of_pixels = axes.transData.transform
+    ends = of_pixels(centres + 0.5 * vectors[seen]), of_pixels(centres - 0.5 * vectors[seen])
+    arrows = _arrows(*ends, width=2.0 * POINT * axes.figure.dpi / 72.0)
+    _fill(axes, list(arrows), 1.0, facecolors=_ARROW, linewidths=0.0, transform=IdentityTransform())
+
+
+def _arrows(heads: Array, tails: Array, width: float) -> Array:
+    """Outlines of arrows from tails to heads, shape (arrows, 7, 2): a shaft of a width, whose head is 3.8 times as wide
+    and 4.5 times as long; what is shorter is a smaller head. matplotlib's quiver takes twice as long."""
+    spans = heads - tails
+    lengths = np.hypot(*spans.T)
+    forward = spans / lengths[:, None]
+    head = np.minimum(lengths, 4.5 * width)
+    neck, none, size = lengths - head, 0.0 * lengths, head / 4.5
+    along = np.column_stack([none, neck, neck, lengths, neck, neck, none])
+    beside = size[:, None] * np.array([0.5, 0.5, 1.9, 0.0, -1.9, -0.5, -0.5])
+    left = np.column_stack([-forward[:, 1], forward[:, 0]])
+    return tails[:, None] + along[:, :, None] * forward[:, None] + beside[:, :, None] * left[:, None]
 
 
 def _draw_wash(axes: Axes, picture: ModePicture, surfaces: tuple[SurfaceCurve, ...], view: View) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import exp, log, pi, tanh
 
 from hydroelastic.physics.beam_parts import Section
@@ -94,23 +94,18 @@ def _layers_at(tank: Tank, level: StillLevel) -> tuple[tuple[float, float], ...]
 @lru_cache(maxsize=16)
 def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
     """Approximate number of modes below λ."""
-    return _mode_count(pieces)(squared_frequency)
+    return _mode_count(pieces, squared_frequency)
 
 
-def _mode_count(pieces: tuple[LevelPiece, ...]) -> Callable[[float], float]:
-    """`modes_below` of λ alone."""
-
-    def count(squared_frequency: float) -> float:
-        return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
-
-    return count
+def _mode_count(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
+    return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
 
 
 @lru_cache(maxsize=16)
 def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:
     """Approximate λ of a mode, counted from 1; an overestimate by about one mode."""
     # End effects shift modes upwards.
-    return _where_reached(_mode_count(pieces), number + 1.0, (1e-30, 1e60), 1e-6)
+    return _where_reached(partial(_mode_count, pieces), number + 1.0, (1e-30, 1e60), 1e-6)
 
 
 def _where_reached(rising: Callable[[float], float], wanted: float, bounds: tuple[float, float], step: float) -> float:

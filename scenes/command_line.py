@@ -178,8 +178,7 @@ def run(
             # First what has libraries of its own, which would wait for that of gmsh.
             import dolfinx  # noqa: F401
 
-            if is_first_rank():
-                load_early(GMSH)
+            load_early(GMSH)
         run_kind = runner_of(checked)
         write_page = page_writer(checked) if page else None
         seconds = time.perf_counter() - start

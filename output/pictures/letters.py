@@ -46,15 +46,15 @@ class TextLine(Artist):
         self._text, self._x, self._y = text, x, y
         self._colour = 255.0 * np.array(to_rgb(colour), dtype=np.float32)
         self.size = size
-        with unhinted_letters():
-            width, _ = self._set().get_width_height()
+        width, _ = self._set().get_width_height()
         self.size *= min(1.0, room * _PARTS / max(width, 1))
 
     def _set(self) -> FT2Font:
         """The font with the line in it."""
         font = get_font(findfont(FontProperties()))
         font.set_size(self.size, 72.0)
-        font.set_text(self._text, 0.0, flags=get_hinting_flag())
+        with unhinted_letters():
+            font.set_text(self._text, 0.0, flags=get_hinting_flag())
         return font
 
     def draw(self, renderer: RendererBase) -> None:

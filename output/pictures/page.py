@@ -109,8 +109,7 @@ def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
     for title in titles:
         heading[:] = untitled
         line = write_title(figure, title)
-        with unhinted_letters():
-            figure.draw_artist(line)
+        figure.draw_artist(line)
         line.remove()
         pages.append(page.copy())
     return pages
@@ -278,14 +277,12 @@ class ColourBar:
         y = np.full(len(x), self._bottom)
         marks = Line2D(x, y, ls="none", marker=MarkerStyle(TICKDOWN), markersize=_TICK, mew=0.8, **_IN_PIXELS)
         figure.add_artist(marks)
-        size = 20.0 * figure.bbox.width / WIDTH
-        middle = self._bottom - (_TICK + 3.5) / 72.0 * figure.dpi - 0.5 * size
+        scale, size = figure.bbox.width / WIDTH, 20.0
+        middle = self._bottom / scale - (_TICK + 3.5) / POINT - 0.5 * size
         numbers = [
-            TextLine(label, at, middle, size=size, colour="black")
+            write(figure, label, middle, size=size, colour="black", x=at / scale)
             for at, label in zip(x, tick_labels(ticks), strict=True)
         ]
-        for number in numbers:
-            figure.add_artist(number)
         return [marks, *numbers]
 
 

@@ -30,7 +30,7 @@ from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
-from hydroelastic.scenes.study.plan import FAMILIES, StudyPlan
+from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.study.report import write_study
 from hydroelastic.scenes.study.run import study_scene
 
@@ -40,7 +40,7 @@ STUDIED = {
     "sloshing": StudyPlan(),
     "interface_beam": StudyPlan(),
     "float_ellipse": StudyPlan(),
-    "float_parabola": StudyPlan(families=FAMILIES),
+    "float_parabola": StudyPlan(),
 }
 # At the width that pages show.
 SHOWN = PictureOptions(width=720, dpi=85)

@@ -225,15 +225,12 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
 @scene_argument
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/<scene name>_study.")
 @set_option
-@click.option(
-    "--families", metavar="LIST", help="Of uniform, algebraic, geometric, tolerance: all by default; or thinness."
-)
+@click.option("--families", metavar="LIST", help="Of uniform, algebraic, geometric, tolerance: all by default.")
 @click.option("--degrees", metavar="LIST", help="On uniform and algebraic meshes, e.g. 1,2,3 or 1-8; default 1-4.")
 @click.option("--geometric-degrees", metavar="LIST", help="On geometric rings; default 2-10.")
 @click.option("--tolerances", metavar="LIST", help="Asked relative errors, e.g. 1e-3,1e-6; default 1e-3 to 1e-10.")
 @click.option("--halvings", metavar="NUMBER", help="How often elements are halved, at most; default 4.")
 @click.option("--most-unknowns", metavar="NUMBER", help="No uniform or algebraic mesh has more; default 250000.")
-@click.option("--width-halvings", metavar="NUMBER", help="In thinness: how often the float's width is; default 6.")
 @format_option
 @dpi_option
 def study(
@@ -249,9 +246,6 @@ def study(
     Prints tables with the observed rates of convergence beside those of theory, and writes study.csv, study.txt,
     study.png and summary.json. It takes about a minute. A LIST is separated by commas, and 1-4 is short for 1,2,3,4.
     In three dimensions each model that takes the scene is asked for the tolerances.
-
-    The family thinness compares the thin and the exact boundary of one float, narrower and narrower: thinness.csv and
-    thinness.png.
 
     \b
     Example:

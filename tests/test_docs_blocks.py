@@ -61,7 +61,6 @@ NOT_RUN = {
         "some seconds; tests/test_scenes_sweep.py sweeps by the command"
     ),
     "./hydro study aquarium": "a quarter of a minute; results/regenerate.py keeps what it gives",
-    "./hydro study float_parabola --families thinness": "half a minute; the page runs it with fewer widths",
     "HYDROELASTIC_SUITE=trixie ./hydro python requirements/lock.py": "from the network",
     "./hydro exec python -m pip install jupyterlab": "from the network",
     "./hydro exec jupyter lab": "is not part of the environment",

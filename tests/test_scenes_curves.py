@@ -25,8 +25,8 @@ from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.string.figure import draw_strings
 from hydroelastic.benchmarks.tank.figure import draw_speed
 from hydroelastic.benchmarks.thread.figure import draw_threads
+from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import StudyRow
-from hydroelastic.fem.study.thinness import QUANTITIES, Comparison, ThinnessRow
 from hydroelastic.fem.thread.stability import Stability, Threshold
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import SCALE_LIMITS, PictureOptions
@@ -45,7 +45,6 @@ from hydroelastic.scenes.string.solve import solve_string
 from hydroelastic.scenes.study.figure import draw_study
 from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.study.run import Study
-from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.thread import figures as thread_figures
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
@@ -119,21 +118,8 @@ def of_studies(folder: Path) -> None:
     with (RESULTS / "shipped" / "aquarium" / "study.csv").open(encoding="utf-8") as file:
         rows = tuple(map(study_row, csv.DictReader(file)))
     sheets = Sheets(folder=folder, title=scene.title)
-    draw_study(Study(scene=scene, plan=StudyPlan(), tank=physical_tank(scene).scaled(), halves=True, rows=rows), sheets)
-    widths = [0.1, 0.05, 0.025]
-    draw_thinness(
-        [
-            ThinnessRow(
-                half_width=width,
-                thinness=width,
-                breadth=0.1 * width,
-                compared={name: Comparison(thin=1.0 + width, exact=1.0, uncertainty=0.0) for name in QUANTITIES},
-                shared=False,
-            )
-            for width in widths
-        ],
-        sheets,
-    )
+    tank, exact = physical_tank(scene).scaled(), Reference(name="exact", omega=np.ones(1), uncertainty=0.0)
+    draw_study(Study(scene=scene, plan=StudyPlan(), tank=tank, reference=exact, halves=True, rows=rows), sheets)
 
 
 def study_row(row: dict[str, str]) -> StudyRow:

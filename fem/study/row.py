@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-Family: TypeAlias = Literal["uniform", "algebraic", "geometric", "tolerance", "thinness"]
-"""Series of solutions; "thinness" compares two boundary conditions, the others measure errors."""
+Family: TypeAlias = Literal["uniform", "algebraic", "geometric", "tolerance"]
+"""Series of solutions."""
 
 
 @dataclass(frozen=True, kw_only=True)

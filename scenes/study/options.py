@@ -16,7 +16,6 @@ EXAMPLES = {
     "tolerances": "1e-3,1e-6",
     "halvings": "4",
     "most_unknowns": "50000",
-    "width_halvings": "5",
 }
 """Example of each option, by attribute of `StudyPlan`."""
 
@@ -100,5 +99,4 @@ _READERS: dict[str, Callable[[str], Any]] = {
     "tolerances": _numbers,
     "halvings": _whole_number,
     "most_unknowns": _whole_number,
-    "width_halvings": _whole_number,
 }

@@ -12,9 +12,6 @@ from hydroelastic.scenes.words import proposal
 
 FAMILIES: tuple[Family, ...] = get_args(Family)
 
-ERROR_FAMILIES: tuple[Family, ...] = ("uniform", "algebraic", "geometric", "tolerance")
-"""Series that measure error against cost, in any scene."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
@@ -50,7 +47,6 @@ LIMITS = {
     # A rate needs three meshes.
     "halvings": Limits(low=2, high=8, whole=True),
     "most_unknowns": Limits(low=1_000, high=10_000_000, whole=True),
-    "width_halvings": Limits(low=2, high=8, whole=True),
 }
 
 
@@ -62,26 +58,22 @@ class StudyPlan:
         families: ``"uniform"``: meshes of one element size, halved again and again. ``"algebraic"``: the same meshes
             drawn towards the tips, r_i = R (i/n)^β, where ψ is singular. ``"geometric"``: one mesh with geometric
             rings around the tips, degree by degree. ``"tolerance"``: what the solver makes of an asked tolerance.
-            ``"thinness"``: thin against exact boundary of a float that gets thinner, in scenes with one float that both
-            know; only if it is asked for.
         degrees: of ψ on uniform and algebraic meshes.
         geometric_degrees: of ψ on the mesh with geometric rings.
         tolerances: asked relative errors.
         halvings: how often elements are halved, at most.
         most_unknowns: a series of meshes ends before a mesh with more unknowns of ψ than this.
-        width_halvings: how often the width of the float is halved, at most, in the family ``"thinness"``.
 
     Raises:
         SceneError: naming each attribute that cannot be used, its value and what is allowed.
     """
 
-    families: tuple[Family, ...] = ERROR_FAMILIES
+    families: tuple[Family, ...] = FAMILIES
     degrees: tuple[int, ...] = (1, 2, 3, 4)
     geometric_degrees: tuple[int, ...] = tuple(range(2, HIGHEST_DEGREE + 1))
     tolerances: tuple[float, ...] = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
     halvings: int = 4
     most_unknowns: int = 250_000
-    width_halvings: int = 6
 
     def __post_init__(self) -> None:
         """Check every value, and sort lists."""

@@ -18,7 +18,6 @@ from hydroelastic.fem.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
 from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of, symmetries_apart
-from hydroelastic.fem.study.thinness import fitted_thinness
 from hydroelastic.output.folder import SUMMARY, result_folder
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
@@ -27,10 +26,7 @@ from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.study.figure import draw_study
-from hydroelastic.scenes.study.plan import ERROR_FAMILIES
 from hydroelastic.scenes.study.run import Study
-from hydroelastic.scenes.study.thinness_figure import draw_thinness
-from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
 
 STAGES = ("plan", "mesh", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; other timed stages follow them."""
@@ -45,7 +41,6 @@ TITLES: dict[Family, str] = {
     "algebraic": "The same meshes drawn towards tips and corners, rᵢ = R (i/n)^β at the sharpest",
     "geometric": "One mesh, with geometric rings around tips and corners, degree by degree",
     "tolerance": "The solver with a requested tolerance",
-    "thinness": "Thin against exact boundary, the float's width halved from one to the next",
 }
 
 Cell = Callable[[StudyRow], str]
@@ -74,11 +69,7 @@ _SHOWN: dict[Family, tuple[str, ...]] = {
 def study_table(study: Study) -> str:
     """All rows by family, and the observed rates with those of theory, as text."""
     console = text_console(_WIDTH)
-    if study.reference is not None:
-        _print_errors(console, study, study.reference)
-    if "thinness" in study.plan.families:
-        console.print(TITLES["thinness"], markup=False)
-        print_thinness(console, study.thinness)
+    _print_errors(console, study, study.reference)
     return "\n".join(line.rstrip() for line in text_of(console).splitlines())
 
 
@@ -101,9 +92,7 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         "",
     ):
         console.print(line, markup=False)
-    for family in ERROR_FAMILIES:
-        if family not in study.plan.families:
-            continue
+    for family in study.plan.families:
         rows = study.rows_of(family)
         console.print(TITLES[family], markup=False)
         if rows:
@@ -117,8 +106,6 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         console.print(_gain_line(study.gain), markup=False)
     if "tolerance" in study.plan.families:
         console.print(_tolerance_line(study), markup=False)
-    if "thinness" in study.plan.families:
-        console.print()
 
 
 def _symmetry_lines(tank: Tank) -> Iterator[str]:
@@ -245,12 +232,8 @@ def write_study(
     with folder_errors(), result_folder(folder, scene_file=scene_file) as inside:
         sheets = Sheets(folder=inside, title=study.scene.title, options=options)
         (inside / "study.txt").write_text(study_table(study) + "\n", encoding="utf-8")
-        if study.reference is not None:
-            (inside / "study.csv").write_text(study_csv(study), encoding="utf-8")
-            draw_study(study, sheets)
-        if study.thinness:
-            (inside / "thinness.csv").write_text(thinness_csv(study.thinness), encoding="utf-8")
-            draw_thinness(study.thinness, sheets)
+        (inside / "study.csv").write_text(study_csv(study), encoding="utf-8")
+        draw_study(study, sheets)
         summary = {
             "scene": study.scene.model_dump(mode="json"),
             "status": "unconverged" if study.reasons else "ok",
@@ -261,15 +244,11 @@ def write_study(
             "rates": [asdict(rate) | {"agrees": rate.agrees} for rate in study.rates],
             "gain": None if study.gain is None else asdict(study.gain) | {"agrees": study.gain.agrees},
             "rows": [asdict(row) for row in study.rows],
-            "thinness": [asdict(row) for row in study.thinness],
-            "thinness_rates": [asdict(rate) | {"agrees": rate.agrees} for rate in fitted_thinness(study.thinness)],
         }
         (inside / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
-def _reference_row(reference: Reference | None) -> dict[str, object] | None:
-    if reference is None:
-        return None
+def _reference_row(reference: Reference) -> dict[str, object]:
     return {
         "name": reference.name,
         "omega": reference.omega.tolist(),

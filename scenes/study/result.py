@@ -26,8 +26,7 @@ class Study:
 
     Attributes:
         measured: all that was found: ``rows`` with family or model, degree, errors, estimate, seconds by stage and
-            memory; per metre of width ``rates`` and ``gain``, the fitted orders beside those of theory, and
-            ``thinness``.
+            memory; per metre of width ``rates`` and ``gain``, the fitted orders beside those of theory.
         text: the tables.
         csv: the rows, at full precision.
     """
@@ -89,7 +88,6 @@ def study(
     tolerances: Sequence[float] | None = None,
     halvings: int | None = None,
     most_unknowns: int | None = None,
-    width_halvings: int | None = None,
     report: bool = False,
 ) -> Study:
     """Solve a scene on many meshes, at many degrees and to many tolerances, and measure error and cost of each
@@ -97,14 +95,13 @@ def study(
 
     Args:
         scene: a closed tank, or the name or file of one; its own tolerance plays no part.
-        families: of "uniform", "algebraic", "geometric" and "tolerance", all by default, or "thinness"; in three
+        families: of "uniform", "algebraic", "geometric" and "tolerance", all by default; in three
             dimensions each model that takes the scene is asked for the tolerances.
         degrees: of ψ on uniform and algebraic meshes; 1 to 4 by default.
         geometric_degrees: of ψ on geometric rings; 2 to 10 by default.
         tolerances: relative errors that are asked; 1e-3 to 1e-10 by default.
         halvings: how often elements are halved, at most; 4 by default.
         most_unknowns: a series of meshes ends before a mesh with more; 250 000 by default.
-        width_halvings: how often the width of the float is halved in "thinness", at most; 6 by default.
         report: whether the current step is shown, on a terminal or below the cell of a notebook.
 
     Raises:
@@ -118,7 +115,6 @@ def study(
         "tolerances": tolerances,
         "halvings": halvings,
         "most_unknowns": most_unknowns,
-        "width_halvings": width_halvings,
     }
     plan = StudyPlan(**{name: plain(value) for name, value in asked.items() if value is not None})
     given = read_scene(scene)

@@ -6,7 +6,7 @@ See docs/studies.md.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report
@@ -15,15 +15,13 @@ from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.series import geometric_rows, nested_rows, tolerance_rows
 from hydroelastic.fem.study.studied_tank import StudiedTank
-from hydroelastic.fem.study.thinness import ThinnessRow, thinness_rows
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
-from hydroelastic.scenes.study.plan import ERROR_FAMILIES, StudyPlan
-from hydroelastic.scenes.study.thinness import both_boundaries, check_thinness
+from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.tank.user_mesh import mesh_refused
 
 
@@ -35,23 +33,21 @@ class Study:
         scene: the scene.
         plan: what was asked.
         tank: of the scene, in its own units.
-        reference: what the errors are measured against; ``None`` if the plan asks for none.
+        reference: what the errors are measured against.
         halves: whether every row solved the tank as two halves.
         rows: all solutions, in the plan's order.
         rates: one for each degree on uniform and algebraic meshes that has enough meshes above rounding.
         gain: what a degree brings on geometric rings; ``None`` if too few degrees show it.
-        thinness: both boundaries of a float, from its own width on; empty unless asked for.
     """
 
     scene: TankScene
     plan: StudyPlan
     tank: Tank
-    reference: Reference | None = None
+    reference: Reference
     halves: bool
     rows: tuple[StudyRow, ...] = ()
     rates: tuple[Rate, ...] = ()
     gain: Gain | None = None
-    thinness: tuple[ThinnessRow, ...] = ()
 
     @property
     def reasons(self) -> tuple[str, ...]:
@@ -75,8 +71,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         The rows and observed rates.
 
     Raises:
-        SceneError: if the scene's ends are open, if it brings a mesh of its own, if it has no float for the thinness
-            that is asked for, or if no mesh can be made.
+        SceneError: if the scene's ends are open, if it brings a mesh of its own, or if no mesh can be made.
         UnsolvedError: if the eigen-solver fails.
     """
     closed_tank(scene, "a study measures the errors of frequencies of closed tanks")
@@ -93,11 +88,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
 
 
 def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
-    thinness = tuple(_thinness(scene, plan, report))
     studied = StudiedTank(physical=physical_tank(scene), modes=scene.accuracy.modes)
-    study = Study(scene=scene, plan=plan, tank=studied.tank, halves=studied.half, thinness=thinness)
-    if not any(family in ERROR_FAMILIES for family in plan.families):
-        return study
     report("reference solution")
     parities = studied.reference.parities
     rows = []
@@ -105,8 +96,11 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
         for row in _rows(studied, plan, family):
             report(f"{family}, degree {row.degree}: {row.unknowns} unknowns, error {row.error:.1e}")
             rows.append(row)
-    return replace(
-        study,
+    return Study(
+        scene=scene,
+        plan=plan,
+        tank=studied.tank,
+        halves=studied.half,
         reference=studied.reference,
         rows=tuple(rows),
         rates=fitted_rates(studied.tank, rows, parities),
@@ -123,12 +117,3 @@ def _rows(studied: StudiedTank, plan: StudyPlan, family: Family) -> Iterator[Stu
             yield from geometric_rows(studied, plan.geometric_degrees)
         case "tolerance":
             yield from tolerance_rows(studied, plan.tolerances)
-
-
-def _thinness(scene: TankScene, plan: StudyPlan, report: Report) -> Iterator[ThinnessRow]:
-    if "thinness" not in plan.families:
-        return
-    check_thinness(scene)
-    for row in thinness_rows(both_boundaries(scene, plan.width_halvings), scene.accuracy.modes):
-        report(f"thinness, half width {row.half_width:.3g} m")
-        yield row

@@ -151,8 +151,8 @@ def test_every_variable_says_what_it_is(folder: Path) -> None:
     dataset, _ = read_dataset(folder / "dataset.nc")
     for name, variable in dataset.data_vars.items():
         assert "long_name" in variable.attrs, name
-        if variable.dtype.kind not in "if" or str(name).startswith(("constant_", "thin_float_")):
-            # The paper's constants and what is compared with the thin-float theory have units of their own.
+        if variable.dtype.kind not in "if" or str(name).startswith("thin_float_"):
+            # What is compared with the thin-float theory has units of its own.
             continue
         assert "units" in variable.attrs, name
     for name, coordinate in dataset.coords.items():

@@ -43,14 +43,12 @@ def all_float_estimates(body: FloatInTank) -> dict[str, FloatEstimate]:
 
     Returns:
         ``hydrostatic`` (no added mass), ``high_frequency`` (exact added mass of the section without waves and walls),
-        ``thin_float`` (the thin-float theory without walls), ``thin_float_printed`` (with its printed constants),
-        ``thin_float_box`` (thin boundary condition, walls and waves).
+        ``thin_float`` (the thin-float theory without walls), ``thin_float_box`` (thin boundary, walls, waves).
     """
     methods: dict[str, Callable[[FloatInTank], FloatEstimate]] = {
         "hydrostatic": _hydrostatic,
         "high_frequency": _high_frequency,
         "thin_float": _thin_float,
-        "thin_float_printed": _thin_float_printed,
         "thin_float_box": _thin_float_box,
     }
     return {name: _guarded(name, method, body) for name, method in methods.items()}
@@ -81,18 +79,6 @@ def _thin_float(body: FloatInTank) -> FloatEstimate:
         _thin_added_mass(body),
         "Thin float in unbounded liquids, frequency far above the waves: neglects the float's thickness, waves and "
         "walls.",
-    )
-
-
-def _thin_float_printed(body: FloatInTank) -> FloatEstimate:
-    profile = body.section()
-    if profile.shape != "exponential":
-        raise NoEstimateError(f"the paper prints no constants for the {profile.shape}")
-    return _from_added_mass(
-        body,
-        _thin_added_mass(body) / 2,
-        "Thin float with the constants as printed, J = l²/2 for l²: erroneous, the added mass is half of what the "
-        "same theory gives.",
     )
 
 

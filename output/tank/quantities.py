@@ -88,10 +88,6 @@ FLOAT_ESTIMATES = Group("estimates", "estimates of heave by older theories, by n
     Quantity("added_mass", "added mass of heave by an older theory", "kg/m", short="added mass"),
     _ADDED_MASS_DIFFERENCE, ESTIMATE_NOTE,
 ), dimension="float_estimate", prefix="float_estimate")
-PRINTED_CONSTANTS = Group("printed_constants", "constants of the paper on its exponential float, by name", (
-    PRINTED := Quantity("printed", "constant as the paper prints it", short="as printed"),
-    CORRECTED := Quantity("corrected", "constant with [corrections](../theory_two_liquids.md)", short="corrected"),
-), dimension="printed_constant", prefix="constant")
 FLOATS = Group("floats", "each float", (
     FLOAT_BODY := Quantity("body", "number of the body", "1"),
     MOTIONS := Quantity("motions", "motions of the float", dimensions=("float_motion",)),
@@ -111,7 +107,7 @@ FLOATS = Group("floats", "each float", (
         HIGH_FREQUENCY_ERROR := Quantity("relative_error",
             "estimated error of an added mass, of the root of the product of its diagonal entries", "1"),
     ), note="`null` under a lid on one liquid"),
-    FLOAT_MODES, FLOAT_ESTIMATES, PRINTED_CONSTANTS,
+    FLOAT_MODES, FLOAT_ESTIMATES,
 ),  record=lambda it: [float_values(it.tank, index, (it.floats or {}).get(index)) for index in it.tank.tank.rigid],
     dimension="float", prefix="float")
 GROWING = Group("growing", "motions e^{σt} of unstable floats, the fastest first", (

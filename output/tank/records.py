@@ -16,7 +16,7 @@ from hydroelastic.output.quantities import Values
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 
 if TYPE_CHECKING:
-    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
+    from hydroelastic.modal.floats.estimates import FloatEstimate
 
 
 def natural_modes(solution: TankSolution) -> list[Values]:
@@ -77,7 +77,7 @@ def first_elastic_tone(solution: TankSolution, tone: ToneSolution) -> Values:
     return found
 
 
-def float_values(solution: TankSolution, index: int, estimates: EstimatesOfFloat | None) -> Values:
+def float_values(solution: TankSolution, index: int, estimates: dict[str, FloatEstimate] | None) -> Values:
     """Return hydrostatics, added mass and modes of a float, its estimates beside its mode of heave."""
     body = solution.physical.floats[index]
     modes = [_float_mode(solution, mode) for mode in solution.float_modes if mode.body == index]
@@ -96,9 +96,8 @@ def float_values(solution: TankSolution, index: int, estimates: EstimatesOfFloat
                 "difference": difference(estimate.omega, heave.get("omega")),
                 "added_mass_difference": difference(estimate.added_mass, heave.get("added_mass")),
             }
-            for name, estimate in (estimates.heave if estimates else {}).items()
+            for name, estimate in (estimates or {}).items()
         },
-        "printed_constants": estimates.printed if estimates else {},
     }
 
 

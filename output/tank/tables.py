@@ -148,23 +148,13 @@ def _estimates(summary: Reading) -> Iterator[Section]:
             compares=True,
         )
     for body in summary[tank.FLOATS]:
-        of_heave, constants = body[tank.FLOAT_ESTIMATES], body[tank.PRINTED_CONSTANTS]
+        of_heave = body[tank.FLOAT_ESTIMATES]
         if of_heave:
             yield Section(
                 title=f"Estimates of the heave of float {body[tank.FLOAT_BODY]} beside the field solution",
                 headings=("estimate of heave", *headings(tank.FLOAT_ESTIMATES)),
                 rows=labelled_columns(of_heave),
                 notes=_notes(of_heave),
-                compares=True,
-            )
-        if constants:
-            yield Section(
-                title=f"Constants of the paper for float {body[tank.FLOAT_BODY]}",
-                headings=("constant of the paper", *headings(tank.PRINTED_CONSTANTS), "printed/corrected"),
-                rows=[
-                    (*row, f"{one[tank.PRINTED] / one[tank.CORRECTED]:.6g}")
-                    for row, one in zip(labelled_columns(constants), constants.values(), strict=True)
-                ],
                 compares=True,
             )
 

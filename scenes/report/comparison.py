@@ -1,9 +1,8 @@
-"""Comparisons in a report: estimates of older theories, the other method of solution, printed formulas."""
+"""Comparisons in a report: estimates of older theories, the other method of solution."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
@@ -18,9 +17,6 @@ from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import Scene
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.roll.results import RollResult
 
 
 def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
@@ -39,7 +35,7 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
         return _string(scene, outcome)
     if isinstance(scene, ThreadScene):
         return tuple(_thread(scene, outcome))
-    return _roll(outcome.solution)
+    return "The solution is a closed form."
 
 
 def _section(scene: TankScene | SeaScene, outcome: Outcome) -> tuple[Section, ...] | str:
@@ -79,12 +75,3 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     # The other processes wait for the report: further solutions run on this process only.
     estimates = thread_estimates(scene, MPI.COMM_SELF)
     yield from comparison_sections(thread_differences(outcome.solution, estimates))
-
-
-def _roll(result: RollResult) -> tuple[Section, ...] | str:
-    from hydroelastic.scenes.roll.compare import paper_section, untreated_by_paper
-
-    untreated = untreated_by_paper(result)
-    if untreated:
-        return f"The solution is a closed form; the paper's formulas do not treat this motion: {untreated}."
-    return (paper_section(result),)

@@ -16,7 +16,7 @@ from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
 if TYPE_CHECKING:
-    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
+    from hydroelastic.modal.floats.estimates import FloatEstimate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class EstimatedTank:
     scene: TankScene
     tank: TankSolution
     beam: dict[str, Estimate] = field(default_factory=dict)
-    floats: dict[int, EstimatesOfFloat] | None = None
+    floats: dict[int, dict[str, FloatEstimate]] | None = None
     estimating: dict[str, float] = field(default_factory=dict)
 
     @property

@@ -38,7 +38,7 @@ def made(**given: Any) -> ThreadScene:
 
 def compared(scene: ThreadScene) -> dict[str, Any]:
     solution = solve_thread_scene(scene, MPI.COMM_WORLD, lambda _message: None)
-    found = thread_differences(solution, thread_estimates(scene, MPI.COMM_WORLD))
+    found = thread_differences(solution, tuple(thread_estimates(scene)))
     json.dumps(found)
     return found
 
@@ -80,7 +80,6 @@ def family_of(name: str) -> list[dict[str, Any]]:
     """Three threads in a regime, compared; what must be small grows twice by a factor 1.4 to 2."""
     slantwise = np.array([0.5, 0.0, 1.0])
     tight = (640.0, 1280.0, 2560.0)
-    clamp = {"kind": "fixed", "clamp": [0.0, 0.0, 1.0]}
     given: dict[str, list[dict[str, Any]]] = {
         "pulled": [
             {"thread": LINE, "stream": STREAM, "ends": {"b": {"kind": "free", "force": list(pull * slantwise)}}}
@@ -102,30 +101,6 @@ def family_of(name: str) -> list[dict[str, Any]]:
             }
             for weight in (0.5, 1.0, 2.0)
         ],
-        "tails": [
-            {
-                "thread": {**LINE, "weight": 1.0},
-                "stream": {**STREAM, "shear": [shear, 0.0]},
-                "ends": {"b": {"kind": "free"}},
-            }
-            for shear in (0.005, 0.01, 0.02)
-        ],
-        "taut": [
-            {
-                "thread": {**LINE, "weight": 1.0},
-                "stream": STREAM,
-                "ends": {"b": {"kind": "fixed", "position": [8.0 / (1.0 + slack), 0.0, 6.0 / (1.0 + slack)]}},
-            }
-            for slack in (2.5e-4, 5e-4, 1e-3)
-        ],
-        "clamped": [
-            {
-                "thread": {**LINE, "flexural_rigidity": rigidity},
-                "stream": STREAM,
-                "ends": {"a": clamp, "b": {"kind": "free", "force": [50.0, 0.0, 100.0]}},
-            }
-            for rigidity in (1.0, 2.0, 4.0)
-        ],
         "cables": [
             {
                 "thread": {"length": 10.0, "mass": 1.0, "weight": weight, "axial_rigidity": 1e5},
@@ -139,11 +114,9 @@ def family_of(name: str) -> list[dict[str, Any]]:
 
 
 IN_PLANE, OUT_OF_PLANE = (f"Irvine and Caughey's cable, {where} its plane" for where in ("in", "out of"))
-OWN_DEPTH = "tension-dominated at the end's own depth, order 1"
 
 
-# Slopes are measured to 0.05 of the whole number that the order of a theory says, and so 0.1 is allowed; 0.15 where the
-# next order is seen, at a change of the stream of 0.1.
+# Slopes are measured to 0.05 of the whole number that the order of a theory says, and so 0.1 is allowed.
 @pytest.mark.slow_but("pulled-*")
 @pytest.mark.parametrize(
     ("family", "name", "quantity", "expected", "within"),
@@ -154,16 +127,9 @@ OWN_DEPTH = "tension-dominated at the end's own depth, order 1"
             for order in (0, 1, 2)
             for quantity in ("position", "tension")
         ),
-        ("buoys", OWN_DEPTH, "position", 2, 0.1),
-        ("buoys", OWN_DEPTH, "tension", 2, 0.1),
         ("light", "drag-dominated, order 0", "position", 1, 0.1),
         ("light", "drag-dominated, order 0", "tension", 1, 0.1),
         ("light", "drag-dominated, order 1", "position", 2, 0.1),
-        ("tails", "nearly critical line of a free tail", "position", 2, 0.15),
-        ("tails", "nearly critical line of a free tail", "tension", 2, 0.15),
-        ("taut", "nearly taut thread", "position", 2, 0.1),
-        ("taut", "nearly taut thread", "tension", 2, 0.1),
-        ("clamped", "layer at the clamp A", "value", 1, 0.1),
         ("cables", IN_PLANE, "value", 2, 0.1),
         ("cables", OUT_OF_PLANE, "value", 2, 0.1),
     ],
@@ -187,39 +153,9 @@ def test_a_thread_held_at_its_other_end_is_estimated_the_same() -> None:
         assert one["position"]["difference"] == pytest.approx(other["position"]["difference"], abs=1e-8)
 
 
-@pytest.mark.slow
-def test_a_body_that_pulls_down_is_the_mirror_image() -> None:
-    def ends(up: float) -> dict[str, Any]:
-        held = {"kind": "fixed", "position": [0.0, 0.0, -3.0 * up]}
-        return {"a": held, "b": {"kind": "free", "weight": -900.0 * up, "drag_area": 0.5}}
-
-    upward, downward = (
-        named(
-            compared(
-                made(
-                    thread={**LINE, "weight": up * 4.0},
-                    stream={**SHEARED, "shear": [0.05 * up, 0.0]},
-                    ends=ends(up),
-                )
-            ),
-            OWN_DEPTH,
-        )
-        for up in (1.0, -1.0)
-    )
-    mirrored = [[x, y, -z] for x, y, z in downward["end_positions"]]
-    assert np.array(upward["end_positions"]) == pytest.approx(np.array(mirrored), abs=1e-12)
-    assert upward["end_tensions"] == pytest.approx(downward["end_tensions"], rel=1e-12)
-    assert upward["position"]["explained"]
-
-
 EXACT = {
     "catenary": scene_of("catenary", "analysis=[]"),
     "critical line of a free tail": scene_of("streamed_array", "analysis=[]"),
-    "weightless thread": made(
-        thread={**LINE, "weight": 0.0, "tangential_drag": 0.0},
-        stream=STREAM,
-        ends={"b": {"kind": "free", "force": [10.0, 30.0, 60.0]}},
-    ),
 }
 
 
@@ -278,15 +214,6 @@ def test_closed_frequencies_are_met(case: str) -> None:
         assert value["difference"] < (1e-7 if entry["order"] is None else 0.02) * np.abs(value["field"]).max()
 
 
-def test_a_towed_body_comes_to_the_critical_line_as_it_must() -> None:
-    found = compared(scene_of("towed_body", "analysis=[]"))
-    (entry,) = named(found, "approach to the critical line")["compared"]
-    # f + f_c = C Tᵏ(1 + …): measured 0.8 % off where the angle is 0.01.
-    assert entry["field"] == pytest.approx(entry["estimate"], rel=0.02)
-    assert entry["estimate"] == pytest.approx(-12.0610487, rel=1e-8)
-    assert reason(found, "tension-dominated, order 1") == "the load is 5.93 of the tension: it must be below 0.5"
-
-
 @pytest.mark.slow
 def test_a_moored_buoy_is_dominated_by_drag() -> None:
     found = compared(scene_of("moored_buoy", "analysis=[]"))
@@ -294,7 +221,6 @@ def test_a_moored_buoy_is_dominated_by_drag() -> None:
     assert first["small"] == pytest.approx(0.228, abs=1e-3)
     assert first["position"]["difference"] < 0.25 * zero["position"]["difference"]
     assert first["position"]["explained"]
-    assert "it must be below 0.5" in reason(found, OWN_DEPTH)
 
 
 def test_compare_prints_what_fits_and_what_does_not() -> None:
@@ -305,7 +231,6 @@ def test_compare_prints_what_fits_and_what_does_not() -> None:
     rows = [line.split() for line in ran.output.splitlines() if line.startswith(" catenary ")]
     assert [row[1] for row in rows] == ["exact", "exact"]
     assert all(row[-2] == "yes" for row in rows)
-    assert "nearly taut thread: the load is 2.47 of the tension: it must be below 0.5." in ran.output
     assert "one end is higher than the other" in " ".join(ran.output.split())
 
 
@@ -314,7 +239,7 @@ def test_a_difference_that_no_error_explains_is_told() -> None:
     solution = solve_thread_scene(scene, MPI.COMM_WORLD, lambda _message: None)
     # Estimates of a thread that is heavier by a newton per metre.
     other = scene.model_copy(update={"thread": scene.thread.model_copy(update={"weight": 5.0})})
-    found = thread_differences(solution, thread_estimates(other, MPI.COMM_WORLD))
+    found = thread_differences(solution, tuple(thread_estimates(other)))
     told = {entry["name"]: entry["tension"]["explained"] for entry in found["shapes"]}
     assert told["tension-dominated, order 0"]
     assert not told["tension-dominated, order 2"]
@@ -349,19 +274,13 @@ VEER = {"density": 1000.0, "veer": {"speed": 1.0, "rate": 0.05}}
     ("changed", "name", "why"),
     [
         ({"load": [{"at": 5.0, "weight": 3.0}]}, "tension-dominated, order 1", "there are bodies on the thread"),
-        ({"ends": HELD_SLACK}, "nearly taut thread", "it must be below 0.5"),
         ({"ends": HELD_SLACK}, "catenary", "a stream drags at the thread"),
         ({"stream": VEER}, "drag-dominated, order 1", "in one direction at all heights"),
         ({"stream": VEER}, "critical line of a free tail", "a force or a body pulls at the tail"),
-        ({"thread": {**LINE, "axial_rigidity": 1e6}}, "weightless thread", "the thread stretches"),
         ({"analysis": MODES, "thread": {**LINE, "mass": 1.0}}, "hanging chain", "the liquid streams"),
     ],
 )
 def test_theories_that_do_not_fit_say_why(changed: dict[str, Any], name: str, why: str) -> None:
     given = {"thread": LINE, "stream": STREAM, "ends": {"b": {"kind": "free", "force": [10.0, 0.0, 600.0]}}, **changed}
-    reasons = {
-        found.name: found.reason
-        for found in thread_estimates(made(**given), MPI.COMM_WORLD)
-        if isinstance(found, Inapplicable)
-    }
+    reasons = {found.name: found.reason for found in thread_estimates(made(**given)) if isinstance(found, Inapplicable)}
     assert why in reasons[name]

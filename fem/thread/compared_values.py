@@ -9,13 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.analyses import ThreadAnalyses
-from hydroelastic.modal.thread.critical import critical_direction
 from hydroelastic.modal.thread.estimate import ValueEstimate
-from hydroelastic.modal.thread.layer_estimates import NEAR_CRITICAL
 from hydroelastic.physics.arrays import FloatArray
 
-# Angles to the critical line below this multiple of their error are left out: their logarithm has no digits.
-_CERTAIN = 100.0
 # Values of an estimate beyond the largest one of the field solution are compared up to this factor.
 _BEYOND = 1.02
 
@@ -40,7 +36,7 @@ def compared_values(solution: ThreadAnalyses, estimate: ValueEstimate) -> Compar
         solution: the field solution.
         estimate: of the same thread.
     """
-    rest, analysis = solution.rest, estimate.analysis
+    analysis = estimate.analysis
     match estimate.quantity:
         case "frequency" | "frequency in the plane" | "frequency out of the plane":
             roots = solution.modes[analysis].oscillating
@@ -59,11 +55,6 @@ def compared_values(solution: ThreadAnalyses, estimate: ValueEstimate) -> Compar
             found = [threshold for threshold in solution.stability[analysis].thresholds if threshold.kind == kind]
             speeds, errors = (speed * np.array([getattr(one, name) for one in found]) for name in ("value", "error"))
             return _nearest(estimate.values, speeds, errors)
-        case "moment at A" | "moment at B":
-            place = 0 if estimate.quantity == "moment at A" else 1
-            return ComparedValues(rest.end_moments[[place]], np.array([rest.moment_error]))
-        case "exponent of the approach":
-            return _approach(solution)
         case _:
             assert_never(estimate.quantity)
 
@@ -78,20 +69,3 @@ def _nearest(values: NDArray[Any], field: NDArray[Any], errors: FloatArray) -> C
     chosen = np.argmin(np.abs(values[reached, None] - field[None, :]), axis=1)
     found[reached], found_errors[reached] = field[chosen], errors[chosen]
     return ComparedValues(found, found_errors)
-
-
-def _approach(solution: ThreadAnalyses) -> ComparedValues:
-    """Slope of the logarithms of angle and tension at the two places nearest to the critical line that have digits."""
-    rest = solution.rest
-    direction, _ = critical_direction(solution.thread.distributed_load, np.zeros(3))
-    tangents = rest.forces / np.linalg.norm(rest.forces, axis=1, keepdims=True)
-    angles = np.arcsin(np.minimum(np.linalg.norm(np.cross(tangents, direction), axis=1), 1.0))
-    error = rest.tension_error / rest.tensions
-    certain = np.flatnonzero((angles > _CERTAIN * error) & (angles < NEAR_CRITICAL))
-    if len(certain) < 2:
-        return ComparedValues(np.array([np.nan]), np.array([np.nan]))
-    first, second = certain[:2]
-    stretch = float(np.log(rest.tensions[first] / rest.tensions[second]))
-    slope = float(np.log(angles[first] / angles[second])) / stretch
-    wrong = (error[first] / angles[first] + error[second] / angles[second]) / abs(stretch)
-    return ComparedValues(np.array([slope]), np.array([wrong]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from mpi4py import MPI
@@ -69,24 +69,6 @@ def find_equilibrium(comm: MPI.Comm, thread: Thread, frame: Frame, tolerance: fl
             continue
         return FoundEquilibrium(solution=solution, start=name, failed=tuple(failed))
     raise NoEquilibriumError(f"no equilibrium under tension was found: {'; '.join(failed)}")
-
-
-def end_forces_without_bending(comm: MPI.Comm, thread: Thread, frame: Frame, tolerance: float) -> Array:
-    """Contact forces (x, y, z) at A and B of a thread without bending stiffness and clamps, N, shape (2, 3).
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units; its bending stiffness and clamps are neglected.
-        frame: coordinates of the solution.
-        tolerance: of the equilibrium (collective).
-
-    Raises:
-        NoEquilibriumError: if no equilibrium is found.
-    """
-    first, last = (replace(end, clamp=None) for end in thread.ends)
-    loose = replace(thread, flexural_rigidity=0.0, ends=(first, last))
-    profile = find_equilibrium(comm, loose, frame, tolerance).solution.profile
-    return frame.to_space(profile.contact_force(profile.nodes[[0, -1]]))
 
 
 def _starts(comm: MPI.Comm, thread: Thread, frame: Frame, failed: list[str]) -> Iterator[tuple[str, Start]]:

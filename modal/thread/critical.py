@@ -1,25 +1,20 @@
-"""Threads near the critical line, along which the load of a stream is tangential."""
+"""The critical line of a thread, along which the load of a stream is tangential."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread_load import UP, ThreadLoad
 
 _DIRECTIONS = 361
-# Of the stream: changes above it are not small.
-_LARGEST = 0.5
 
 
 def critical_direction(load: ThreadLoad, point: ArrayLike) -> tuple[FloatArray, float]:
@@ -106,104 +101,4 @@ def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLik
         s=places,
         positions=np.asarray(start, dtype=float) + np.outer(places, direction),
         forces=np.outer(pull * (length - places), direction),
-    )
-
-
-def towed_body_exponent(weight: float, normal_load: float, tangential_load: float) -> float:
-    """Return k of f + f_c = C Tᵏ(1 + …), with which a thread approaches the critical line away from a body at its end.
-
-    k = −(w sin f_c + 2Rₙ sin f_c cos f_c)/(w sin f_c + Rₜ cos² f_c). The layer at the body is T_B/|q| thick.
-
-    Args:
-        weight: w, N/m; its sign does not matter.
-        normal_load: Rₙ = kₙ U², N/m.
-        tangential_load: Rₜ = kₜ U², N/m.
-
-    Raises:
-        ValueError: if there is no load.
-        NoAsymptoticError: if nothing pulls along the critical line.
-    """
-    angle = critical_angle(weight, normal_load)
-    pull = abs(weight) * math.sin(angle) + tangential_load * math.cos(angle) ** 2
-    if not pull > 0:
-        raise NoAsymptoticError("nothing pulls along the critical line: there is neither weight nor friction")
-    return -math.sin(angle) * (abs(weight) + 2 * normal_load * math.cos(angle)) / pull
-
-
-@dataclass(frozen=True)
-class NearlyCriticalTail:
-    """A thread with a free tail in a nearly uniform stream, at heights ζ from its tail towards its held end.
-
-    Attributes:
-        angles: below the stream, −f, rad, shape (n,).
-        tensions: T, N, shape (n,).
-        across: distance upstream of the tail, m, shape (n,).
-        lengths: arc length from the tail, m, shape (n,).
-        small: largest relative change of the stream.
-        angle_truncation: estimated error of the angles, rad: their change times the change of the stream.
-    """
-
-    angles: FloatArray
-    tensions: FloatArray
-    across: FloatArray
-    lengths: FloatArray
-    small: float
-    angle_truncation: float
-
-
-def nearly_critical_tail(
-    weight: float,
-    normal_load: float,
-    tangential_load: float,
-    changes: Sequence[float],
-    heights: ArrayLike,
-) -> NearlyCriticalTail:
-    """Return the free tail in U = U₀(1 + Σ δₖ ζᵏ), to first order in δ.
-
-    a = w sin f − Rₜ cos² f and b = −w sin f − 2Rₙ sin f cos f at f = −f_c, κ = b/a < 0:
-    f = −f_c + Σ pₖ ζᵏ, pₖ = −2Rₙ sin² f δₖ/(a(k − κ)),
-    T = aζ/sin f + Σ [Rₜ(2 cos f + cos³ f/sin² f) pₖ − 2Rₜ cos² f δₖ/sin f] ζᵏ⁺¹/(k + 1).
-
-    Args:
-        weight: w, N/m; of a buoyant thread heights are depths below the tail.
-        normal_load: Rₙ = kₙ U₀², N/m, at the tail.
-        tangential_load: Rₜ = kₜ U₀², N/m.
-        changes: δ₁, δ₂, …, m⁻ᵏ.
-        heights: ζ, m, increasing from 0 or more, shape (n,).
-
-    Raises:
-        ValueError: if there is no load.
-        NoAsymptoticError: if there is no weight, without which the critical line is level, or no drag, or the stream
-            changes by more than half.
-    """
-    if weight == 0 or not normal_load > 0:
-        raise NoAsymptoticError("the critical line is not inclined: there must be weight and normal drag")
-    zeta, size = np.asarray(heights, dtype=float), abs(weight)
-    powers = np.arange(1, len(changes) + 1)
-    delta = np.asarray(changes, dtype=float)
-    small = float(np.abs(zeta[:, None] ** powers @ delta).max(initial=0.0))
-    if not small < _LARGEST:
-        raise NoAsymptoticError(f"the stream changes by {small:.3g} of itself: it must be below {_LARGEST}")
-    angle = critical_angle(weight, normal_load)
-    sine, cosine = -math.sin(angle), math.cos(angle)
-    pull = size * sine - tangential_load * cosine**2
-    exponent = sine * (-size - 2 * normal_load * cosine) / pull
-    turns = -2 * normal_load * sine**2 * delta / (pull * (powers - exponent))
-    grows = tangential_load * ((2 * cosine + cosine**3 / sine**2) * turns - 2 * cosine**2 * delta / sine)
-
-    def angles(at: FloatArray) -> FloatArray:
-        return np.asarray(-angle + at[:, None] ** powers @ turns)
-
-    rule = PanelQuadrature(np.unique(np.concatenate([[0.0], zeta])))
-    inside = angles(rule.nodes)
-    _, sums = rule.running(np.stack([-1 / np.tan(inside), -1 / np.sin(inside)], axis=1))
-    chosen = np.searchsorted(rule.knots, zeta)
-    change = angles(zeta) + angle
-    return NearlyCriticalTail(
-        angles=angle - change,
-        tensions=pull / sine * zeta + zeta[:, None] ** (powers + 1) @ (grows / (powers + 1)),
-        across=sums[chosen, 0],
-        lengths=sums[chosen, 1],
-        small=small,
-        angle_truncation=small * float(np.abs(change).max(initial=0.0)),
     )

@@ -58,12 +58,8 @@ Quantity: TypeAlias = Literal[
     "root",
     "divergence speed",
     "flutter speed",
-    "moment at A",
-    "moment at B",
-    "exponent of the approach",
 ]
-"""Angular frequencies, rad/s, of all modes or of those in or out of the plane of the thread; roots λ, 1/s; speeds, m/s;
-bending moments at clamps, N·m; the exponent with which the angle to the critical line falls with the tension."""
+"""Angular frequencies, rad/s, of all modes or those in or out of the plane of the thread; roots λ, 1/s; speeds, m/s."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import root_scalar
 
-from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
+from hydroelastic.modal.thread.asymptotics import AsymptoticThread
 from hydroelastic.modal.thread.estimate import require, require_bare_thread
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.arrays import FloatArray
@@ -22,15 +21,6 @@ LEVELS = 513
 
 # Tolerance of iterations, of the length.
 _FOUND = 1e-12
-_MOST_ROUNDS = 100
-
-
-class _OfSomeLength(Protocol):
-    @property
-    def length(self) -> float: ...
-
-
-_Thread = TypeVar("_Thread", bound=_OfSomeLength)
 
 
 @dataclass(frozen=True)
@@ -139,23 +129,3 @@ def shape_at(shape: ThreadShape, places: FloatArray) -> ThreadShape:
     require(bool(np.all(np.diff(shape.s) > 0.0)), "weight would turn the thread back")
     both = CubicSpline(shape.s, np.hstack([shape.positions, shape.forces]))(places)
     return ThreadShape(s=places, positions=both[:, :3], forces=both[:, 3:])
-
-
-def of_length(at: Callable[[float], _Thread], length: float, guess: float) -> _Thread:
-    """Return the thread of a length, m, which is nearly in proportion to its height.
-
-    Args:
-        at: the thread by its height, m.
-        length: m.
-        guess: of the height, m.
-
-    Raises:
-        NoAsymptoticError: if no height is found.
-    """
-    height = guess
-    for _ in range(_MOST_ROUNDS):
-        found = at(height)
-        if abs(found.length - length) < _FOUND * length:
-            return found
-        height *= length / found.length
-    raise NoAsymptoticError("no height is found at which the thread has its length")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mpi4py import MPI
-
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.output.tank.quantities import EXACT
@@ -72,6 +70,4 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     from hydroelastic.scenes.thread.differences import thread_differences
     from hydroelastic.scenes.thread.estimates import thread_estimates
 
-    # The other processes wait for the report: further solutions run on this process only.
-    estimates = thread_estimates(scene, MPI.COMM_SELF)
-    yield from comparison_sections(thread_differences(outcome.solution, estimates))
+    yield from comparison_sections(thread_differences(outcome.solution, tuple(thread_estimates(scene))))

@@ -29,7 +29,7 @@ def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None
     at_rest = scene.model_copy(update={"analysis": tuple(asked for asked in scene.analysis if asked.kind != "motion")})
     solution = solve_thread_scene(at_rest, comm, report)
     report("estimates")
-    estimates = thread_estimates(at_rest, comm)
+    estimates = tuple(thread_estimates(at_rest))
     summary = run_thread.summarized(at_rest, solution)
     differences = thread_differences(solution, estimates)
     sections, cost = tuple(comparison_sections(differences)), run_thread.cost(run_thread.read(summary))

@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats.channel_motion import channel_free_motion, channel_resonance
 from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.floats.thin_float_decay import FreeMotion, crossover_time, free_motion
 from hydroelastic.modal.floats.thin_float_radiation import HeaveRadiation, is_deep, natural_rate, thin_float_radiation
@@ -59,7 +58,7 @@ def open_float_estimate(profile: Profile, layers: TwoLayers, omega: npt.ArrayLik
     resonance = crossover = None
     try:
         resonance = _resonance(profile, layers)
-        crossover = crossover_time(profile) / natural_rate(profile, layers) if is_deep(layers) else None
+        crossover = crossover_time(profile) / natural_rate(profile, layers)
     except NoEstimateError as reason:
         notes.append(f"Incomplete: {reason}.")
     return OpenFloatEstimate(
@@ -73,7 +72,7 @@ def open_float_estimate(profile: Profile, layers: TwoLayers, omega: npt.ArrayLik
 
 
 def released_float(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> FreeMotion:
-    """Return s(t)/s₀ of a thin float released from rest in open water at rest, deep or not.
+    """Return s(t)/s₀ of a thin float released from rest in deep open water at rest.
 
     Args:
         profile: the section.
@@ -81,19 +80,22 @@ def released_float(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> 
         time: t ≥ 0, s.
 
     Raises:
-        NoEstimateError: as `free_motion` and `channel_free_motion`.
+        NoEstimateError: as `free_motion`, and at finite depth.
         ValueError: if a time is negative or not finite.
     """
-    if is_deep(layers):
-        return free_motion(profile, np.asarray(time, dtype=np.float64) * natural_rate(profile, layers))
-    return channel_free_motion(profile, layers, time)
+    _require_deep(layers)
+    return free_motion(profile, np.asarray(time, dtype=np.float64) * natural_rate(profile, layers))
 
 
 def _resonance(profile: Profile, layers: TwoLayers) -> complex:
-    if not is_deep(layers):
-        return channel_resonance(profile, layers)
+    _require_deep(layers)
     # e^{pt} = e^{−iωt}: of both poles the one with Im p < 0.
     return 1j * heave_pole(profile).frequency.conjugate() * natural_rate(profile, layers)
+
+
+def _require_deep(layers: TwoLayers) -> None:
+    if not is_deep(layers):
+        raise NoEstimateError("free motions are known in infinitely deep liquids only")
 
 
 def lone_profile(tank: Tank) -> Profile | None:

@@ -47,7 +47,7 @@ NOT_RUN = {
     "./hydro test --all --junitxml=report_of_all.xml": ALL_TESTS,
     "./hydro python tests/support/slowest.py report.xml report_of_all.xml": "needs the reports of all tests",
     "HYDROELASTIC_SUITE=sid ./hydro test": "the second lane: another Debian, from the network",
-    "./hydro env": "a command of the launcher, tests/test_launcher_commands.py",
+    "./hydro env": "a command of the launcher, tests/test_launcher.py",
     "./hydro mpirun -n 2 python -m hydroelastic.scenes run aquarium": (
         "MPI cannot start within MPI; tests marked mpi do it"
     ),

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import gc
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,11 +33,11 @@ class MemoryUse:
 def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     """Measure the highest resident memory of a block of code above what the process held before it (collective).
 
-    The peak that a process remembers only grows, so it is reset first, which Linux allows a process for itself; and
-    freed memory is returned to the system first, since its reuse would not be counted. Elsewhere the peak is ``None``.
+    The peak that a process remembers only grows, so it is reset first, which Linux allows a process for itself; memory
+    that the allocator keeps and uses again is not counted. Elsewhere the peak is ``None``.
     """
     use = MemoryUse()
-    release_memory()
+    gc.collect()
     resettable = True
     try:
         _RESET.write_text(_FORGET_PEAK, encoding="ascii")
@@ -51,25 +50,6 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     increases = comm.allgather(1024 * (after - before) if known and before is not None and after is not None else None)
     told = [increase for increase in increases if increase is not None]
     use.peak = sum(told) if len(told) == len(increases) else None
-
-
-@contextmanager
-def sparing_known_objects() -> Iterator[None]:
-    """Let `release_memory` look only at what a block of code makes: to look at all that was imported takes longer than
-    to solve many a scene."""
-    gc.freeze()
-    try:
-        yield
-    finally:
-        gc.unfreeze()
-
-
-def release_memory() -> None:
-    """Give freed memory back to the operating system: an allocator keeps it, and later allocations seldom fit."""
-    gc.collect()
-    # Available in glibc only; other allocators keep less.
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).malloc_trim(0)
 
 
 def release_matrices(comm: MPI.Comm) -> None:

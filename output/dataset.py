@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.io import netcdf_file
 
-from hydroelastic.output.bare_package import bare_package
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.provenance import OF_ALL_SCENES, SCENE, STATUS, VERSIONS, Summary, read_summary
 from hydroelastic.output.quantities import Group
@@ -63,9 +63,6 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
     Raises:
         ValueError: if two arrays have different lengths along the same dimension.
     """
-    with bare_package("scipy.io"):
-        from scipy.io._netcdf import netcdf_file
-
     found = [separate_parts(variable) for variable in variables if variable.values.size]
     if any("complex" in variable.dimensions for variable in found):
         found = merged(found, [PARTS])

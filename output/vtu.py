@@ -10,8 +10,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from hydroelastic.output.bare_package import bare_package, imported_when_called
-
 Cells: TypeAlias = Sequence[tuple[str, np.ndarray[Any, Any]]]
 """Kind of the cells, as meshio calls it, and numbers of their nodes, shape (cells, nodes)."""
 
@@ -48,14 +46,10 @@ def write_vtu(
     """
     starts = np.cumsum([len(nodes) for _, nodes in cells])[:-1]
     of_blocks = {name: np.split(values, starts) for name, values in (cell_data or {}).items()}
-    with bare_package("meshio"):
-        # It prints warnings by rich, of which there are none here.
-        with imported_when_called("rich.console", "Console"):
-            from meshio._mesh import Mesh
-            from meshio.vtu._vtu import write
+    import meshio  # only by runs that write fields
 
-        mesh = Mesh(points, list(cells), point_data=dict(point_data), cell_data=of_blocks)
-        write(path, mesh, compression="zlib" if compressed else None)
+    mesh = meshio.Mesh(points, list(cells), point_data=dict(point_data), cell_data=of_blocks)
+    meshio.write(path, mesh, file_format="vtu", compression="zlib" if compressed else None)
     path.write_bytes(_ARRAY.sub(_with_unit, path.read_bytes()))
 
 

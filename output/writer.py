@@ -12,7 +12,6 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
-from hydroelastic.output.pictures.quick_import import import_matplotlib
 from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.output.provenance import TIMING, Summary, read_summary
 from hydroelastic.output.quantities import Group
@@ -84,7 +83,6 @@ def write_results(
                     with watch.stage("draw"):
                         report("pictures")
                         (folder / "images").mkdir()
-                        import_matplotlib()
                         from hydroelastic.output.pictures.page import saving  # needs matplotlib
 
                         drawing.enter_context(saving())

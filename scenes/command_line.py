@@ -36,7 +36,6 @@ from hydroelastic.scenes.command_parts import (
     folder_of_results,
     is_first_rank,
 )
-from hydroelastic.scenes.early_libraries import GMSH, load_early
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
@@ -174,11 +173,6 @@ def run(
     folder = folder_of_results(scene, out)
     with progress(title_of_scene(checked), shown=not quiet and sys.stderr.isatty()) as report:
         start = time.perf_counter()
-        if checked.kind in ("tank", "sea"):
-            # First what has libraries of its own, which would wait for that of gmsh.
-            import dolfinx  # noqa: F401
-
-            load_early(GMSH)
         run_kind = runner_of(checked)
         write_page = page_writer(checked) if page else None
         seconds = time.perf_counter() - start

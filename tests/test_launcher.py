@@ -21,7 +21,7 @@ from packaging.utils import canonicalize_name
 CHECKOUT = Path(__file__).resolve().parent.parent
 REQUIREMENTS = CHECKOUT / "requirements"
 WORKFLOW = CHECKOUT / ".github" / "workflows" / "checks.yml"
-COMMANDS = ["run", "compare", "check", "list", "study", "sweep", "schema", "bench", "test", "lint", "docs", "python", "mpirun", "exec", "shell", "env"]
+COMMANDS = re.findall(r"\w+", "run compare check list study sweep schema bench test lint docs python mpirun exec env")
 # Of Debian in a private root; `lock.py` finds the same.
 BROUGHT_BY_DEBIAN = {"fenics-dolfinx", "mpi4py", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy", "h5py"}
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -56,25 +54,3 @@ def test_panels_of_one_size_share_their_raster(tmp_path: Path) -> None:
     tank._raster.cache_clear()
     draw_overview([picture.times(sign) for sign in (1.0, -1.0) * 4], tmp_path / "sheet.png", columns=3)
     assert tank._raster.cache_info().misses == 1
-
-
-def test_the_quick_import_changes_nothing_but_help() -> None:
-    program = """
-from hydroelastic.output.pictures.quick_import import import_matplotlib
-import_matplotlib()
-from matplotlib import artist, lines
-line = lines.Line2D([], [])
-line.set(color="red", lw=2.0)
-assert (line.get_color(), line.get_linewidth()) == ("red", 2.0)
-try:
-    line.set(colours="red")
-except AttributeError:
-    pass
-else:
-    raise AssertionError("properties are not checked")
-assert "linewidth" in artist.kwdoc(lines.Line2D)
-assert "alpha" in artist.Artist.set.__signature__.parameters
-class Sketch(lines.Line2D): pass
-assert "linewidth" in Sketch.set.__signature__.parameters
-"""
-    subprocess.run([sys.executable, "-c", program], check=True)

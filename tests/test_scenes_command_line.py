@@ -306,11 +306,10 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         (["run", "--help"], set()),
         (["run", "missing.toml"], set()),
         # What solves draws only when asked, and draws sections without VTK.
-        # SciPy's linear algebra comes with all its parts but NetCDF; a tank with one beam needs NumPy's only.
-        (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING - {"scipy.linalg"}),
+        (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
         (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING - {"scipy", "scipy.linalg"}),
-        (["run", "aquarium", *COARSE], HEAVY - READING - SPACE - {"scipy.linalg"}),
+        (["run", "aquarium", *COARSE], HEAVY - READING - SPACE),
     ],
 )
 def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], needed: set[str]) -> None:

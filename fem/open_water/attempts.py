@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from typing import TypeVar
 
-from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.model_building import first_resolution
@@ -40,7 +40,7 @@ def best_in_basin(
     def solved(resolution: Resolution) -> Attempt[Result]:
         if resolution is not first:
             # Of the attempt before; that of the last one is released after the analysis.
-            release_memory()
+            gc.collect()
         return solve(resolution)
 
     return best_attempt(tank, tolerance, solved, first, rounds=_MOST_ATTEMPTS, infinite_frequency=infinite_frequency)

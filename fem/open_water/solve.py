@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -10,7 +11,6 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from hydroelastic.fem.kept_tolerance import excess
-from hydroelastic.fem.memory import release_memory, sparing_known_objects
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
@@ -94,7 +94,6 @@ class OpenWaterSolution:
         return "unconverged" if self.reasons else "ok"
 
 
-@sparing_known_objects()
 def solve_open_water(
     problem: OpenWaterProblem, requests: Sequence[Request], report: Report = lambda _message: None
 ) -> OpenWaterSolution:
@@ -138,11 +137,11 @@ def solve_open_water(
             size = {"cells": liquid.tank.cell_count, "dofs": solution.model.pencil.size, "degree": liquid.degree}
         reasons += _reasons(problem.tolerance, number, request.kind, solution)
         del solution
-        release_memory()
+        gc.collect()
     # All processes free the last solver together.
     problem.solvers.clear()
     moving.solvers.clear()
-    release_memory()
+    gc.collect()
     return OpenWaterSolution(
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),

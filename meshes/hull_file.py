@@ -9,6 +9,7 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -36,7 +37,8 @@ _SAME = 1e-6
 _AROUND, _DEGREE, _SMALLEST = 16, 4, 0.02
 # Part of the waterplane that the sum of all areas may differ from zero.
 _CLOSED = 1e-4
-_TRIANGLE = 2
+# A triangle of a binary STL file: its normal, its corners, and two bytes that mean nothing.
+_BINARY_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 # Part of the extent: corners this close are one; binary files hold single precision.
 _SAME_PLACE = 1e-6
 
@@ -141,25 +143,38 @@ def triangles_of(file: Path, _changed: int) -> Triangles:
     Raises:
         MeshError: if there are none.
     """
-    with gmsh_model():
-        try:
-            gmsh.merge(str(file))
-        except Exception as error:
-            raise MeshError(f"{file} cannot be read: {error}") from error
-        tags, places, _ = gmsh.model.mesh.getNodes()
-        _, corners = gmsh.model.mesh.getElementsByType(_TRIANGLE)
-    if not len(corners):
-        raise MeshError(f"{file} holds no triangles")
-    order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    order[tags.astype(np.int64)] = np.arange(len(tags))
-    every = places.reshape(-1, 3)
+    every, corners = np.unique(_corners_of_triangles(file), axis=0, return_inverse=True)
     pairs = cKDTree(every).query_pairs(_SAME_PLACE * np.ptp(every, axis=0).max(), output_type="ndarray")
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(every), len(every)))
     _, part = connected_components(links, directed=False)
     _, first, numbers = np.unique(part, return_index=True, return_inverse=True)
-    triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
+    triangles = numbers.ravel()[corners.reshape(-1, 3)]
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
     return Triangles(points=every[first], corners=triangles[distinct])
+
+
+def _corners_of_triangles(file: Path) -> NDArray[np.float64]:
+    """Read an STL file: three corners for each triangle, m, shape (3 triangles, 3)."""
+    try:
+        content = file.read_bytes()
+        count = int.from_bytes(content[80:84], "little")
+        # Binary files may begin with "solid" as well.
+        if content.lstrip()[:5].lower() == b"solid" and len(content) != 84 + count * _BINARY_TRIANGLE.itemsize:
+            lines = [line.split() for line in content.decode("latin-1").lower().splitlines()]
+            corners = np.array([line[1:] for line in lines if line[:1] == ["vertex"]], dtype=np.float64)
+        else:
+            corners = np.frombuffer(content, _BINARY_TRIANGLE, count, offset=84)["corners"].astype(np.float64)
+        triangles = corners.reshape(-1, 3, 3)
+    except (OSError, ValueError) as error:
+        raise MeshError(f"{file} cannot be read: it is broken, or not an STL file, of text or binary") from error
+    if not len(triangles):
+        raise MeshError(f"{file} holds no triangles")
+    finite = np.isfinite(triangles).all(axis=(1, 2))
+    if not finite.all():
+        raise MeshError(
+            f"triangle {1 + finite.argmin()} in {file} has a corner whose coordinates are no finite numbers"
+        )
+    return triangles.reshape(-1, 3)
 
 
 def wetted_triangles(file: Path, level: float) -> Triangles:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 from math import inf
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import gmsh
 import numpy as np
 
 from hydroelastic.meshes.filling import gmsh_model
+from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_volume, read_gmsh
@@ -18,6 +22,15 @@ from hydroelastic.physics.level_tank import FilePlan
 
 # A face at this height, in units of the tank, is of the still surface.
 _LEVEL = 1e-6
+
+# What files are, and how they begin; gmsh runs what begins otherwise as a script.
+_STEP = "a STEP file of CAD, ISO 10303-21", (b"ISO-10303-21;",)
+_KINDS = {
+    ".step": _STEP,
+    ".stp": _STEP,
+    ".brep": ("a BREP file of OpenCASCADE", (b"DBRep_DrawableShape", b"CASCADE Topology")),
+    ".msh": (FORMATS[".msh"], (b"$MeshFormat", b"$Comments")),
+}
 
 _Entities = list[tuple[int, int]]
 
@@ -73,6 +86,31 @@ def lies_in_plane(tag: int, axis: int, level: float) -> bool:
     )
 
 
+@contextmanager
+def readable_by_gmsh(file: Path) -> Iterator[str]:
+    """Give the path of a copy of a file of data in a folder of its own: gmsh also runs what stands in FILE.opt.
+
+    Raises:
+        MeshError: if the file, by its first bytes, is not what its name says, or gmsh cannot read it.
+    """
+    try:
+        content = file.read_bytes().lstrip()
+    except OSError as error:
+        raise MeshError(f"{file} cannot be read: {error.strerror}") from error
+    suffix = file.suffix.lower()
+    kind, beginnings = _KINDS[suffix]
+    broken = f"{file} cannot be read: it is broken, or not {kind}"
+    if not content.startswith(beginnings):
+        raise MeshError(broken)
+    with TemporaryDirectory(prefix="hydroelastic_") as folder:
+        copy = Path(folder, f"copy{suffix}")
+        copy.write_bytes(content)
+        try:
+            yield str(copy)
+        except Exception as error:  # gmsh raises bare Exception
+            raise MeshError(broken) from error
+
+
 def solids_in(file: Path, metres: float) -> _Entities:
     """Read the solids of a file into the current model, in a unit of length.
 
@@ -82,9 +120,8 @@ def solids_in(file: Path, metres: float) -> _Entities:
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
     try:
-        return [one for one in gmsh.model.occ.importShapes(str(file)) if one[0] == 3]
-    except Exception as error:  # gmsh raises bare Exception
-        raise MeshError(f"{file} cannot be read as a file of CAD") from error
+        with readable_by_gmsh(file) as copy:
+            return [one for one in gmsh.model.occ.importShapes(copy) if one[0] == 3]
     finally:
         gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
 
@@ -137,7 +174,8 @@ def _extremes(solids: _Entities, low: float, high: float) -> tuple[float, float]
 def mesh_of_file(plan: FilePlan) -> VolumeMesh:
     """A mesh of gmsh with the group free_surface, of any degree."""
     with gmsh_model():
-        gmsh.merge(str(plan.file))
+        with readable_by_gmsh(plan.file) as copy:
+            gmsh.merge(copy)
         names = {gmsh.model.getPhysicalName(dim, tag): (dim, tag) for dim, tag in gmsh.model.getPhysicalGroups(2)}
         if FREE_SURFACE not in names:
             there = ", ".join(sorted(names)) or "none"

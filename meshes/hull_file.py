@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.filling import gmsh_model
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError
 from hydroelastic.meshes.triangle_crossings import crossing_place
 from hydroelastic.meshes.volume_file import lies_in_plane, solids_in
 from hydroelastic.physics.wetted_hulls import (
@@ -169,10 +169,11 @@ def _corners_of_triangles(file: Path) -> NDArray[np.float64]:
         raise MeshError(f"{file} cannot be read: it is broken, or not an STL file, of text or binary") from error
     if not len(triangles):
         raise MeshError(f"{file} holds no triangles")
-    finite = np.isfinite(triangles).all(axis=(1, 2))
-    if not finite.all():
+    are_places = (np.abs(triangles) < FARTHEST).all(axis=(1, 2))
+    if not are_places.all():
         raise MeshError(
-            f"triangle {1 + finite.argmin()} in {file} has a corner whose coordinates are no finite numbers"
+            f"triangle {1 + are_places.argmin()} in {file} has a corner whose coordinates are not finite, or beyond "
+            f"{FARTHEST:g} m"
         )
     return triangles.reshape(-1, 3)
 

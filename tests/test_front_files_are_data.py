@@ -1,4 +1,4 @@
-"""Nothing that a scene names is ever executed: gmsh runs what it does not know as a script, and FILE.opt beside FILE."""
+"""Nothing that a scene names is executed: gmsh runs what it does not know as a script, and FILE.opt beside FILE."""
 
 import os
 import subprocess

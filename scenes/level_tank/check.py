@@ -62,7 +62,7 @@ def _boundaries(tank: LevelTank) -> Iterator[Row]:
         if plan.inner_radius:
             yield f"inner wall of radius {plan.inner_radius:g} m", "ψ_r = 0"
     elif isinstance(plan, FilePlan):
-        yield f"walls and bed of {plan.file.name}, {tank.depth:g} m deep", "ψ_n = 0"
+        yield f"walls and bed of {plan.file.name}, {plan.measures}", "ψ_n = 0"
     else:
         yield f"{len(plan.points)} walls around the plan", "ψ_n = 0"
     if isinstance(bed, SlopingBed):

@@ -19,6 +19,7 @@ from hydroelastic.scenes.models.float_checks import contour_is_simple, sides_are
 from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
+    depth_of,
     physical_outline,
     physical_plan,
     shape_file,
@@ -37,6 +38,10 @@ from hydroelastic.scenes.models.volume_checks import (
 
 LEAST_INNER_RADIUS = 1e-3
 """Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
+
+_AGREED = 1e-2
+"""Relative difference of the depths of a mesh and a scene that is accepted: a mesh may have no node at the deepest
+point."""
 
 _Bounds: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
@@ -119,6 +124,14 @@ def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _depths_are_given(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    if scene.tank.shape is not None and scene.tank.shape.suffix.lower() == ".msh":
+        return
+    for index, liquid in enumerate(scene.liquid):
+        if liquid.depth is None:
+            yield problem_at(("liquid", index, "depth"), None, "it is missing", allowed="the depth in m")
+
+
 def _polygons_are_simple(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     given = [(("body", index, "points"), body.points) for index, body in enumerate(scene.body) if body.kind == "plate"]
     for location, points in ((("tank", "plan"), scene.tank.plan), *given):
@@ -156,9 +169,19 @@ def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
         from hydroelastic.meshes.tagged_mesh import MeshError
 
         try:
-            physical_plan(scene)
+            plan = physical_plan(scene)
         except MeshError as error:
             yield problem_at(("tank", "shape"), str(tank.shape), str(error))
+            return
+        depth = depth_of(plan, scene)
+        if scene.depth and abs(scene.depth - depth) > _AGREED * depth:
+            yield problem_at(
+                ("liquid", 0, "depth"),
+                scene.depth,
+                f"the liquid in {tank.shape.name} is {depth:g} m deep, as its lengths are taken in metres",
+                allowed=f"{depth:g}, or no depth",
+                remedy="Correct it, or the unit of the mesh",
+            )
 
 
 def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -213,7 +236,8 @@ def _edges_can_be_held(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    unit, depth = physical_plan(scene).unit, scene.depth
+    plan = physical_plan(scene)
+    unit, depth = plan.unit, depth_of(plan, scene)
     least, most = DEPTH_TO_LENGTH
     if not least <= depth / unit <= most:
         yield problem_at(
@@ -354,7 +378,7 @@ def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_plan_is_complete, _polygons_are_simple, _something_moves, volumes_are_of_plates),
+    (_plan_is_complete, _depths_are_given, _polygons_are_simple, _something_moves, volumes_are_of_plates),
     (_files_can_be_read,),
     (_outlines_fit_the_plan, _edges_can_be_held, _depth_fits_the_plan, _bed_is_below_the_surface),
     (liquids_are_layered, columns_lie_in_the_tank, shaped_beds_are_simple),

@@ -97,7 +97,7 @@ def volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     """Floats can be at rest as given, are stable, and touch nothing; in two liquids they are in the upper one."""
-    plan, depth = physical_plan(scene), scene.liquid[-1].depth
+    plan, depth = physical_plan(scene), scene.liquid[-1].depth or scene.depth
     middle, first = middle_of(plan), len(scene.plates)
     if any(isinstance(body, VolumeFloat) for body in scene.body[:first]):
         remedy = "Move it to the end of the scene"

@@ -11,6 +11,7 @@ from hydroelastic.fem.tank.resolution import (
     initial_resolution,
     workable_tolerance,
 )
+from hydroelastic.meshes.geometry import BAFFLE
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.symmetry import is_mirror_image
@@ -63,6 +64,8 @@ def _sizes(scene: TankParts) -> Iterator[str]:
     resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(tank, resolution, user_mesh, half=half)}."
+    if user_mesh is not None and BAFFLE in user_mesh.facet_names:
+        yield f"  The mesh has {user_mesh.facet_measure(BAFFLE):.5g} m of baffles, with ψ_n = 0 on both sides."
     if resolution.modes > scene.accuracy.modes:
         what = (
             "the modes that share the first elastic tone"

@@ -20,9 +20,10 @@ def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     from hydroelastic.meshes.files import load_mesh  # meshio takes a while to import
+    from hydroelastic.meshes.inner_walls import opened_along_baffles
 
     try:
-        mesh = load_mesh(scene.mesh.file)
+        mesh = opened_along_baffles(load_mesh(scene.mesh.file), scene.mesh.file.name)
         check_mesh(physical_tank(scene).scaled(), mesh.scaled(1.0 / scene.tank.length))
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error

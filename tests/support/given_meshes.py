@@ -54,7 +54,7 @@ def box_mesh(
     *,
     split: Callable[[np.ndarray], bool] | None = None,
     at: float = 2.0,
-    baffle: bool = False,
+    baffle: Callable[[np.ndarray], bool] | None = None,
     scale: float = 1.0,
 ) -> Path:
     """Write a box of tetrahedra, 0 < x < length, 0 < y < width, −depth < z < 0.
@@ -65,7 +65,7 @@ def box_mesh(
         counts: bricks along each axis, of six tetrahedra each.
         split: which nodes in the plane x = ``at``, by their places, are doubled.
         at: that x.
-        baffle: whether the doubled faces are named ``baffle``; of a mesh that is not split the faces in the plane.
+        baffle: faces in that plane whose nodes are all of these are named ``baffle``.
         scale: factor of all coordinates.
     """
     x, y, z = (np.linspace(0.0, side, count + 1) for side, count in zip(size, counts, strict=True))
@@ -88,9 +88,9 @@ def box_mesh(
                 face = [node for place, node in enumerate(nodes) if place != leave]
                 if (points[face, 2] == 0.0).all():
                     elements.append((_TRIANGLE, 1, face))
-                if baffle and (points[face, 0] == at).all() and x[corner[0]] < at:
-                    if split is None or all(split(points[node]) for node in face):
-                        elements.append((_TRIANGLE, 3, face))
+                in_plane = (points[face, 0] == at).all() and x[corner[0]] < at
+                if baffle and in_plane and all(baffle(points[node]) for node in face):
+                    elements.append((_TRIANGLE, 3, face))
     names = {"free_surface": (2, 1), "liquid": (3, 2)} | ({"baffle": (2, 3)} if baffle else {})
     return write_msh(file, scale * points, elements, names)
 
@@ -128,10 +128,9 @@ def section_mesh(
         for nodes in ([(i, j), (i + 1, j), (i + 1, j + 1)], [(i, j), (i + 1, j + 1), (i, j + 1)]):
             cell = [int(number[node]) for node in nodes]
             elements.append((_TRIANGLE, 2, [copies.get(node, node) if x[i] >= at else node for node in cell]))
-    # The top right of the plane belongs to the doubled node there.
-    top = copies.get(int(number[np.flatnonzero(x == at)[0], -1]), -1)
-    if top >= 0:
-        place = int(np.flatnonzero(x == at)[0])
+    for place in np.flatnonzero(x == at).tolist() if split and split(points[number.max()]) else ():
+        # The top to the right of the plane begins at the doubled node there.
+        top = copies[int(number[place, -1])]
         elements[place] = (_LINE, 1, (top, int(number[place + 1, -1])))
     names = {"free_surface": (1, 1), "liquid": (2, 2)} | ({"baffle": (1, 3)} if baffle else {})
     return write_msh(file, np.column_stack([points, np.zeros(len(points))]), elements, names)

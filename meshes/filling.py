@@ -102,7 +102,10 @@ def gmsh_model() -> Iterator[None]:
     except Exception as error:  # gmsh raises bare Exception
         # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()
-        raise MeshError(f"gmsh could not mesh the tank: {error}") from error
+        raise MeshError(
+            "gmsh finds no cells for it; parts that cross, touch or almost touch, or sizes that differ by many powers of "
+            "ten, are the usual reasons"
+        ) from error
     finally:
         if gmsh.isInitialized():
             gmsh.model.mesh.removeSizeCallback()

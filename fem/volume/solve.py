@@ -30,6 +30,7 @@ from hydroelastic.fem.plan.classes import (
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.truncation import plate_errors
+from hydroelastic.fem.solver_error import TooLargeError
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
@@ -67,10 +68,6 @@ _ROUNDING = 1e-11
 _INNER = 1e-2
 # Tolerance for which Laplace's equation is solved in the coarser space that modes are sought in first.
 _COARSE = 1e-4
-
-
-class TooLargeError(MeshError):
-    """The problem would not fit into memory."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -250,7 +247,7 @@ def _solve(
         lambda _, solution: _refined(solution, count, tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
-        failures=(TooLargeError,),
+        failures=(MeshError,),
     ).solution
 
 

@@ -12,10 +12,11 @@ from hydroelastic.fem.tank.resolution import (
     workable_tolerance,
 )
 from hydroelastic.meshes.geometry import BAFFLE
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.errors import cannot_be_meshed
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.check_hints import hints
@@ -29,9 +30,13 @@ def check_tank(scene: TankParts) -> Iterator[Section]:
         scene: a validated scene.
 
     Raises:
-        SceneError: if the scene brings a mesh that cannot be read or does not fit it.
+        SceneError: if it cannot be meshed, or brings a mesh that cannot be read or does not fit it.
     """
-    return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=tuple(_sizes(scene))))
+    try:
+        sizes = tuple(_sizes(scene))
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
+    return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=sizes))
 
 
 def modelled_tank(scene: TankParts, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:

@@ -103,8 +103,8 @@ def gmsh_model() -> Iterator[None]:
         # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()
         raise MeshError(
-            "gmsh finds no cells for it; parts that cross, touch or almost touch, or sizes that differ by many powers of "
-            "ten, are the usual reasons"
+            "gmsh finds no cells for it; parts that cross, touch or almost touch, or sizes that differ by many powers "
+            "of ten, are the usual reasons"
         ) from error
     finally:
         if gmsh.isInitialized():

@@ -265,7 +265,9 @@ def test_a_volume_of_too_many_cells_is_told_before_it_is_meshed() -> None:
     """Two liquids 2.6 m deep in a tank 9 km wide: gmsh alone makes a mesh that is cut at an interface."""
     two = ({"density": 1000.0, "depth": 2.5}, {"density": 800.0, "depth": 0.1})
     scene = LevelTankScene(tank={"radius": 9281.0, "model": "volume"}, liquid=two)
-    with pytest.raises(SceneError, match=r"cannot be meshed: about 1e\+07 tetrahedra would be needed, and 3e\+06 can be"):
+    with pytest.raises(
+        SceneError, match=r"cannot be meshed: about 1e\+07 tetrahedra would be needed, and 3e\+06 can be"
+    ):
         list(check_level_tank(scene))
 
 

@@ -21,6 +21,9 @@ from hydroelastic.scenes.models.volume_floats import UnfloatableError, VolumeFlo
 LEAST_DEPTH = 0.05
 """Part of the depth that a bed leaves: cells over a shallower one would be flat."""
 
+LEAST_FLOAT = 1e-5
+"""Least draught and sides of a float in units of the tank's extent: planes closer than 1e-6 of it are one."""
+
 # Part of the largest stiffness.
 _ROUNDING = 1e-12
 
@@ -118,6 +121,14 @@ def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
             below = "below" if len(scene.liquid) == 1 else "of the upper one below"
             yield problem_at(("body", index, "draught"), solid.draught, f"it leaves no liquid {below}", allowed=most)
+        if min(solid.draught, *solid.size) < LEAST_FLOAT * plan.unit:
+            key = "draught" if body.draught is not None else "mass" if body.mass is not None else body.shape_key
+            value = getattr(body, key)
+            wrong = (
+                f"the float has a draught or a side of {min(solid.draught, *solid.size):.3g} m, too little to be meshed"
+            )
+            most = f"{LEAST_FLOAT * plan.unit:g} m at least"
+            yield problem_at(("body", index, key), str(value) if key == "file" else value, wrong, allowed=most)
         if not _is_inside(plan, solid.bounds, solid.shape in ("cylinder", "sphere", "revolved")):
             key = body.shape_key
             value = getattr(body, key)

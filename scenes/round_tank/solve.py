@@ -7,7 +7,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.liquid.sloping_walls import lowest_between_slopes
 from hydroelastic.modal.plate.round_estimates import round_plate_estimates
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed
+from hydroelastic.scenes.errors import UnsolvedError, cannot_be_meshed
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene

@@ -138,3 +138,5 @@ def test_preferences_of_gmsh_are_neither_read_nor_written(tmp_path: Path) -> Non
     assert done.returncode == 0, done.stderr
     assert not Path("planted").exists()
     assert {path: path.read_bytes() for path in home.iterdir() if path.name.startswith(".gmsh")} == before
+    # FLTK's preferences, which gmsh brings.
+    assert not (home / ".fltk").exists()

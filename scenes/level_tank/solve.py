@@ -60,8 +60,8 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     """Solve a tank in three dimensions and estimate it (collective).
 
     Raises:
-        SceneError: if no solver takes its plan and plates, its parts do not fit together or cannot be meshed, or nothing
-            oscillates.
+        SceneError: if no solver takes its plan and plates, its parts do not fit together or cannot be meshed, or
+            nothing oscillates.
         UnsolvedError: if the eigen-solver fails, or memory is too small.
     """
     require_treated(scene)

@@ -17,6 +17,7 @@ from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_ad
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import RadiationRequest
+from hydroelastic.fem.open_water.response_errors import unmeshed_error
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
@@ -80,6 +81,7 @@ class _Sweep:
     model: OpenModel
     swept: Swept[OpenFrequency]
     errors: np.ndarray
+    flux_errors: list[np.ndarray]
     factorizations: int
 
 
@@ -99,10 +101,20 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
             causes = [_causes(swept.solutions[place]) for place in places]
+            unmeshed = unmeshed_error(solver.model)
+            # The error of the basis is relative to the largest entry.
+            flux_errors = [
+                solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
+                for solution, error in zip(swept.solutions, swept.errors, strict=True)
+            ]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(
-                model=solver.model, swept=swept, errors=errors, factorizations=solver.factorizations - before
+                model=solver.model,
+                swept=swept,
+                errors=errors,
+                flux_errors=flux_errors,
+                factorizations=solver.factorizations - before,
             ),
             causes=joined_errors(causes, float(swept.errors.max())),
             resolution=resolution,
@@ -159,8 +171,9 @@ def _tabulated(
     errors = [0.0]
     if attempt is not None:
         errors.append(attempt.error)
-        swept, in_full = attempt.result.swept.solutions, attempt.result.swept.in_full
-        rows |= {row.omega: row for row in map(_row, _finite(request), swept, attempt.result.errors, in_full)}
+        found = attempt.result
+        swept, in_full = found.swept.solutions, found.swept.in_full
+        rows |= {row.omega: row for row in map(_row, _finite(request), swept, found.errors, found.flux_errors, in_full)}
     if np.inf in request.omega:
         matrix, error = infinite_frequency_added_mass(problem, shapes)
         errors.append(error)
@@ -176,7 +189,9 @@ def _tabulated(
         wavenumbers=np.array([row.wavenumbers for row in ordered]),
         added_mass=np.array([row.added_mass for row in ordered]),
         radiation_damping=np.array([row.radiation_damping for row in ordered]),
+        radiation_damping_error=np.array([row.radiation_damping_error for row in ordered]),
         excitation_force=np.array([row.froude_krylov_force + row.diffraction_force for row in ordered]),
+        excitation_force_error=np.array([row.excitation_force_error for row in ordered]),
         froude_krylov_force=np.array([row.froude_krylov_force for row in ordered]),
         diffraction_force=np.array([row.diffraction_force for row in ordered]),
         relative_error=np.array([row.relative_error for row in ordered]),
@@ -203,30 +218,32 @@ class _Row:
     wavenumbers: np.ndarray
     added_mass: np.ndarray
     radiation_damping: np.ndarray
+    radiation_damping_error: np.ndarray
     froude_krylov_force: np.ndarray
     diffraction_force: np.ndarray
+    excitation_force_error: np.ndarray
     relative_error: float
     energy_residual: float
     haskind_residual: float
 
 
-def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
+def _row(omega: float, found: OpenFrequency, error: float, flux_errors: np.ndarray, in_full: bool) -> _Row:
     model, waves = found.model, found.incidence
-    masses = model.scale.masses(found.hydrodynamic)
-    count = len(waves.planes) // waves.directions
+    scale, count = model.scale, len(waves.planes) // waves.directions
 
-    def forces(values: np.ndarray) -> np.ndarray:
+    def of_planes(values: np.ndarray) -> np.ndarray:
         # From (direction, wave) to (wave, direction).
-        moved: np.ndarray = model.scale.forces(waves.plane_forces(model.basin, values)).swapaxes(0, 1)
-        return moved
+        return waves.plane_forces(model.basin, values).swapaxes(0, 1)
 
     return _Row(
         omega=omega,
         wavenumbers=np.array([plane.wave.wavenumber for plane in waves.planes[:count]]) / model.basin.units.length,
-        added_mass=masses.real,
-        radiation_damping=omega * masses.imag,
-        froude_krylov_force=forces(found.froude_krylov_force),
-        diffraction_force=forces(found.diffraction_force),
+        added_mass=scale.masses(found.hydrodynamic.real),
+        radiation_damping=omega * scale.masses(found.radiation_damping),
+        radiation_damping_error=omega * scale.masses(found.radiation_damping_errors(flux_errors), errors=True),
+        froude_krylov_force=scale.forces(of_planes(found.froude_krylov_force)),
+        diffraction_force=scale.forces(of_planes(found.diffraction_force)),
+        excitation_force_error=scale.forces(np.abs(of_planes(found.squared * flux_errors)), errors=True),
         relative_error=float(error),
         # On a reduced basis the field is less accurate than the forces: its residuals are no check of them.
         energy_residual=found.energy_residual() if in_full else nan,
@@ -242,8 +259,10 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
         wavenumbers=np.full(waves, omega),
         added_mass=added_mass,
         radiation_damping=np.zeros_like(added_mass),
+        radiation_damping_error=np.zeros_like(added_mass),
         froude_krylov_force=nothing,
         diffraction_force=nothing,
+        excitation_force_error=nothing.real,
         relative_error=error,
         energy_residual=0.0,
         haskind_residual=0.0,
@@ -259,8 +278,10 @@ def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) ->
     omegas = np.array([factor * unit for factor in _SLOW])
     attempt = _swept(problem, omegas, shapes)
     first, second = (
-        _row(omega, found, attempt.error, True)
-        for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)
+        _row(omega, found, attempt.error, flux_errors, True)
+        for omega, found, flux_errors in zip(
+            omegas, attempt.result.swept.solutions, attempt.result.flux_errors, strict=True
+        )
     )
     slower, slow = first.added_mass, second.added_mass
     sizes = np.sqrt(np.abs(np.diag(slow)))
@@ -273,4 +294,5 @@ def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) ->
         added_mass=np.where(grows, np.copysign(np.inf, slower), slower),
         # b/ω may have a limit, b is zero.
         radiation_damping=np.zeros_like(slower),
+        radiation_damping_error=np.zeros_like(slower),
     )

@@ -37,13 +37,17 @@ class RadiationTable:
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
         added_mass: (n, m, m) a, kg/m, kg, kg m; entry (i, j) is the force in i by motion in j.
-        radiation_damping: (n, m, m) b, kg/(m s), kg/s, kg m/s; the force is −(−ω² a − iω b) ζ.
+        radiation_damping: (n, m, m) b, kg/(m s), kg/s, kg m/s; the force is −(−ω² a − iω b) ζ. By the power of the
+            radiated waves.
+        radiation_damping_error: (n, m, m) its estimated error, in the same units.
         excitation_force: (n, w, 2, m) N/m², moments N/m, per metre of elevation e^{i(±kx − ωt)}, in the directions of
             `DIRECTIONS`.
+        excitation_force_error: (n, w, 2, m) its estimated error, in the same units.
         froude_krylov_force: (n, w, 2, m) the part of the incident wave.
         diffraction_force: (n, w, 2, m) the part of the scattered waves.
-        relative_error: (n,) estimated relative error of a + ib/ω.
-        energy_residual: (n,) relative difference of b and the power of the radiated waves.
+        relative_error: (n,) estimated error of the matrix a, of each motion relative to its own |a + ib/ω|; the largest.
+        energy_residual: (n,) difference of b by the pressure on the bodies and by the power of the radiated waves, over
+            ω|a + ib/ω|.
         haskind_residual: (n,) relative difference of the excitation and Haskind's formula with the radiated waves.
         inertia: (m, m) of the bodies, kg/m, kg, kg m.
         stiffness: (m, m) of the bodies and hydrostatics, N/m², N/m, N.
@@ -58,7 +62,9 @@ class RadiationTable:
     wavenumbers: Floats
     added_mass: Floats
     radiation_damping: Floats
+    radiation_damping_error: Floats
     excitation_force: Complexes
+    excitation_force_error: Floats
     froude_krylov_force: Complexes
     diffraction_force: Complexes
     relative_error: Floats

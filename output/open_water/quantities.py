@@ -33,7 +33,8 @@ from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
 
 _INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
-_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": CREST}
+_DAMPING: dict[str, Any] = {"unit": "kg/(m s)", "of_roll": ("kg/s", "kg m/s")}
+_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",)}
 _MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
 _PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": CREST}
 
@@ -204,18 +205,25 @@ RADIATION = Group("radiation", "radiated and incident waves, by analysis; matric
     joined_array("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
         value=lambda _: DIRECTIONS, printed=False),
     joined_array("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
-    RADIATION_DAMPING := joined_array("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)",
-        of_roll=("kg/s", "kg m/s"), symbol="b", error="relative_error"),
-    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
-        error="relative_error", **_FORCE),
+    RADIATION_DAMPING := joined_array("radiation_damping", "radiation damping", *_MATRIX, symbol="b",
+        error="radiation_damping_error", note="by the power of the radiated waves", **_DAMPING),
+    joined_array("radiation_damping_error", "estimated error of the radiation damping", *_MATRIX, short="error of b",
+        shown=".1e", note="of each entry by itself", **_DAMPING),
+    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|", phase=CREST,
+        error="excitation_force_error", **_FORCE),
+    joined_array("excitation_force_error", "estimated error of the excitation force per unit elevation", _FORCES,
+        printed=False, note="of each force by itself", **_FORCE),
     joined_array("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
-        variable="Froude_Krylov_force", printed=False, **_FORCE),
+        variable="Froude_Krylov_force", printed=False, phase=CREST, **_FORCE),
     joined_array("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
-        **_FORCE),
-    RADIATION_ERROR := joined_array("relative_error", "estimated relative error of added mass and damping", "omega",
-        unit="1", short="relative error", shown=".1e", variable="radiation_relative_error"),
-    joined_array("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
-        printed=False, variable="radiation_energy_residual"),
+        phase=CREST, **_FORCE),
+    RADIATION_ERROR := joined_array("relative_error",
+        "estimated error of the added mass, of each motion relative to the magnitude of a + ib/ω of that motion alone",
+        "omega", unit="1", short="error/|a + ib/ω|", shown=".1e", variable="radiation_relative_error",
+        note="the largest of all motions; coupling terms may be smaller than it"),
+    joined_array("energy_residual",
+        "difference of damping by pressure and by the radiated power, relative to ω times the magnitude of a + ib/ω",
+        "omega", unit="1", printed=False, variable="radiation_energy_residual"),
     joined_array("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
         "omega", unit="1", printed=False),
     joined_array("inertia", "inertia of the bodies", OF_BODIES, variable="inertia_matrix", **_INERTIA),

@@ -7,6 +7,8 @@ from functools import partial
 from math import pi
 from typing import Any
 
+import numpy as np
+
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import (
     DecayTable,
@@ -130,16 +132,22 @@ def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
         f"{worst} {table.factorizations} factorizations.",
     )
     left_out = water.WAVENUMBERS.key if several else ""
-    found = (column for column in open_columns(group, table) if column.quantity.printed)
-    printed = [column for column in found if column.quantity.key != left_out]
+    found = [column for column in open_columns(group, table) if column.quantity.key != left_out]
     for place, motion in enumerate(table.dofs):
         own = {"influenced_dof": place, "radiating_dof": place, "wave_direction": 0}
-        columns = [column for column in printed if all(own.get(name, at) == at for name, at in column.places.items())]
+        columns = [column for column in found if all(own.get(name, at) == at for name, at in column.places.items())]
+        printed = [column for column in columns if column.quantity.printed]
+        damping, error = table.radiation_damping[:, place, place], table.radiation_damping_error[:, place, place]
+        hidden = np.count_nonzero((damping <= error) & (error > 0.0))
         yield Section(
             title=f"Radiation by {motion.words}",
-            headings=headings_of(columns, "wave" if several else ""),
-            rows=rows_of(group, columns, shown),
-            lines=(*thinned, *(further if place == len(table.dofs) - 1 else ())),
+            headings=headings_of(printed, "wave" if several else ""),
+            rows=rows_of(group, printed, shown, columns),
+            lines=(
+                *thinned,
+                *((f"NOT RESOLVED: b is not larger than its error at {hidden} frequencies.",) if hidden else ()),
+                *(further if place == len(table.dofs) - 1 else ()),
+            ),
         )
 
 

@@ -128,6 +128,7 @@ def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
     shown, thinned = shown_rows(len(table.omega), "frequencies", "radiation.csv")
     worst = f"Largest residuals: energy {largest(table.energy_residual)}, Haskind {largest(table.haskind_residual)}."
     further = (
+        "The last column is the error of a over |H|, the magnitude of a + ib/ω of the motion; ± b is the error of b.",
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
     )

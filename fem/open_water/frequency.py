@@ -122,8 +122,8 @@ class OpenFrequency:
     def radiation_damping_errors(self, fluxes: np.ndarray) -> np.ndarray:
         """Return errors of `radiation_damping`, of the same shape, by those of `fluxes`."""
         amplitudes, errors = (np.abs(self.incidence.amplitudes(one)) for one in (self.fluxes, fluxes))
-        powers = self.incidence.powers[:, None]
-        return np.asarray((amplitudes + errors).T @ (powers * (amplitudes + errors)) - amplitudes.T @ (powers * amplitudes))
+        most, powers = amplitudes + errors, self.incidence.powers
+        return np.asarray((most.T * powers) @ most - (amplitudes.T * powers) @ amplitudes)
 
     def observed_amplitudes(self) -> np.ndarray:
         """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns), from the field at some

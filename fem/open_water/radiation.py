@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite, nan
+from math import isfinite, nan, sqrt
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -14,6 +14,7 @@ from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenFrequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import RadiationRequest
@@ -29,9 +30,13 @@ from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
 
-# Frequencies over √(g/length) that stand for ω = 0: added mass differs from its limit like their squares, and at lower
-# ones rounding is too large. A relative growth above this between the two is that of −ln ω.
-_SLOW = (1e-3, 3e-3)
+# Frequencies of sections over √(g/length) whose added mass is extrapolated to ω = 0, from which it differs like their
+# squares, in deep water times a logarithm. At lower ones a is the rest of a + ib/ω over a bed, where b has a limit.
+_SLOW = (1e-3, 3e-3, 9e-3)
+_SLOW_OVER_A_BED = (2e-2, 6e-2, 0.18)
+# Part of the tolerance there, as the error is relative to a alone.
+_OF_THE_REST = 0.01
+# A relative growth above this between the first two is that of −ln ω.
 _GROWS = 1e-3
 # Number of frequencies of a sweep with an error estimate; between two of them the larger one is taken.
 _ESTIMATED = 5
@@ -178,8 +183,13 @@ def _tabulated(
         matrix, error = infinite_frequency_added_mass(problem, shapes)
         errors.append(error)
         rows[np.inf] = _limit_row(np.inf, scale.masses(matrix), len(waves), error)
+    stiffness = scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies])))
     if 0.0 in request.omega:
         rows[0.0] = _slow_row(problem, shapes, len(waves))
+        if len(waves) == 1:
+            # The still level rises by the elevation: a heave of all bodies by −1.
+            risen = np.array([dof.motion == "heave" for dof in scale.dofs], dtype=float)
+            rows[0.0] = _in_longest_waves(problem.tank, rows[0.0], stiffness @ risen)
         errors.append(rows[0.0].relative_error)
     ordered = [rows[omega] for omega in request.omega]
     table = RadiationTable(
@@ -198,7 +208,7 @@ def _tabulated(
         energy_residual=np.array([row.energy_residual for row in ordered]),
         haskind_residual=np.array([row.haskind_residual for row in ordered]),
         inertia=scale.masses(block_diag(*(body.mass for body in bodies))),
-        stiffness=scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies]))),
+        stiffness=stiffness,
         infinite_frequency_added_mass=rows[np.inf].added_mass if np.inf in rows else None,
         factorizations=attempt.result.factorizations if attempt else 0,
         fields_at=request.fields_at,
@@ -270,29 +280,68 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 
 
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
-    """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
+    """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite.
+
+    Damping and forces of sections are those of the lowest frequency solved.
+    """
     if problem.tank.geometry.is_revolved:
         matrix, error = zero_frequency_added_mass(problem, shapes)
         return replace(_limit_row(0.0, matrix, waves, error), wavenumbers=np.zeros(waves))
-    unit = open_basin(problem.tank, 0.0).units.frequency
-    omegas = np.array([factor * unit for factor in _SLOW])
+    length, deep = open_basin(problem.tank, 0.0).units.length, is_infinitely_deep(problem.tank)
+    if not deep:
+        # Waves are to be longer than the depth, and in shallow water than the body.
+        depths = [layer.depth for layer in problem.tank.layers if isfinite(layer.depth)]
+        length = max(length, *depths, length**2 / min(depths))
+        problem = replace(problem, tolerance=_OF_THE_REST * problem.tolerance, solvers={})
+    omegas = sqrt(problem.tank.gravity / length) * np.array(_SLOW if deep else _SLOW_OVER_A_BED)
     attempt = _swept(problem, omegas, shapes)
-    first, second = (
+    first, second, third = (
         _row(omega, found, attempt.error, flux_errors, True)
         for omega, found, flux_errors in zip(
             omegas, attempt.result.swept.solutions, attempt.result.flux_errors, strict=True
         )
     )
-    slower, slow = first.added_mass, second.added_mass
-    sizes = np.sqrt(np.abs(np.diag(slow)))
-    grows = np.abs(slower - slow) > _GROWS * np.outer(sizes, sizes)
+    masses = first.added_mass
+    sizes = np.sqrt(np.abs(np.diag(masses)))
+    sizes = np.outer(sizes, sizes)
+    grows = np.abs(masses - second.added_mass) > _GROWS * sizes if deep else np.zeros(masses.shape, dtype=bool)
+    limit, further = (
+        one.added_mass - (other.added_mass - one.added_mass) / ((omegas[1] / omegas[0]) ** 2 - 1.0)
+        for one, other in ((first, second), (second, third))
+    )
+    # The second one has nine times the error of the first, or 81 times without logarithms.
+    remaining = np.abs(further - limit) / (8.0 if deep else 80.0)
+    # Of a alone, where a is but a part of a + ib/ω.
+    whole = np.abs(masses + 1j * first.radiation_damping / omegas[0])
+    share = float(np.max(np.diag(whole) / np.diag(sizes), initial=1.0, where=~np.diag(grows)))
     return replace(
         first,
         omega=0.0,
-        relative_error=attempt.error + _SLOW[0] ** 2,
+        relative_error=share * attempt.error + float(np.max(remaining / sizes, initial=0.0, where=~grows)),
         wavenumbers=np.zeros(waves),
-        added_mass=np.where(grows, np.copysign(np.inf, slower), slower),
-        # b/ω may have a limit, b is zero.
-        radiation_damping=np.zeros_like(slower),
-        radiation_damping_error=np.zeros_like(slower),
+        added_mass=np.where(grows, np.copysign(np.inf, masses), limit),
+        radiation_damping_error=np.abs(second.radiation_damping - first.radiation_damping),
+        excitation_force_error=np.abs(
+            second.froude_krylov_force + second.diffraction_force - first.froude_krylov_force - first.diffraction_force
+        ),
+    )
+
+
+def _in_longest_waves(tank: Tank, row: _Row, forces: np.ndarray) -> _Row:
+    """Return the row of ω = 0 in one liquid with its forces, shape (m,), of a level that rises evenly.
+
+    Sections over a bed have b = Σ XⱼX̄ₖ/(4ρg c) of both directions then, with c = √(gH); all others have none.
+    """
+    (layer,) = tank.layers
+    damping = np.zeros_like(row.added_mass)
+    if isfinite(layer.depth) and not tank.geometry.is_revolved:
+        damping = np.outer(forces, forces) / (2.0 * layer.density * tank.gravity * sqrt(tank.gravity * layer.depth))
+    static = np.broadcast_to(forces.astype(complex), row.froude_krylov_force.shape)
+    return replace(
+        row,
+        radiation_damping=damping,
+        radiation_damping_error=np.zeros_like(damping),
+        froude_krylov_force=static,
+        diffraction_force=np.zeros_like(static),
+        excitation_force_error=np.zeros(static.shape),
     )

@@ -45,7 +45,8 @@ class RadiationTable:
         excitation_force_error: (n, w, 2, m) its estimated error, in the same units.
         froude_krylov_force: (n, w, 2, m) the part of the incident wave.
         diffraction_force: (n, w, 2, m) the part of the scattered waves.
-        relative_error: (n,) estimated error of the matrix a, of each motion relative to its own |a + ib/ω|; the largest.
+        relative_error: (n,) estimated error of a, of each motion relative to its own |a + ib/ω|, at ω = 0 to |a|; the
+            largest.
         energy_residual: (n,) difference of b by the pressure on the bodies and by the power of the radiated waves, over
             ω|a + ib/ω|.
         haskind_residual: (n,) relative difference of the excitation and Haskind's formula with the radiated waves.

@@ -220,7 +220,8 @@ RADIATION = Group("radiation", "radiated and incident waves, by analysis; matric
     RADIATION_ERROR := joined_array("relative_error",
         "estimated error of the added mass, of each motion relative to the magnitude of a + ib/ω of that motion alone",
         "omega", unit="1", short="error/|H|", shown=".1e", variable="radiation_relative_error",
-        note="the largest of all motions; coupling terms may be smaller than it"),
+        note="at ω = 0 relative to a; the largest of all motions: it covers the norm of the matrix, and coupling terms or "
+            "motions that hardly move water may be smaller than it"),
     joined_array("energy_residual",
         "difference of damping by pressure and by the radiated power, relative to ω times the magnitude of a + ib/ω",
         "omega", unit="1", printed=False, variable="radiation_energy_residual"),

@@ -53,7 +53,7 @@ def test_a_section_over_a_bed_has_damping_in_the_longest_waves() -> None:
     expected = DENSITY * GRAVITY / (2.0 * sqrt(GRAVITY * depth))
     np.testing.assert_allclose(found["radiation_damping"], [[expected, 0.0], [0.0, 0.0]], rtol=1e-12, atol=1e-9)
     np.testing.assert_allclose(found["force"], [DENSITY * GRAVITY, 0.0], rtol=1e-12, atol=1e-9)
-    # By tolerances of 1e-6 and 1e-8, which differ by 2e-7; |a + ib/ω| is seventy times a at the lowest frequency solved.
+    # By tolerances of 1e-6 and 1e-8, which differ by 2e-7. At the lowest frequency solved |a + ib/ω| is 70 times a.
     np.testing.assert_allclose(np.diag(found["added_mass"]), [362.1617, 677.31382], rtol=found["relative_error"])
 
 

@@ -68,9 +68,11 @@ class MotionScale:
         scaled: np.ndarray = unit * (forces @ self._back(errors=errors))
         return scaled
 
-    def amplitudes(self, unknowns: np.ndarray) -> np.ndarray:
-        """Convert motions per dimensionless elevation, shape (…, body unknowns), to m/m, of rotations to rad/m."""
-        scaled: np.ndarray = unknowns @ self.turn.T * self.lengths / self.units.length
+    def amplitudes(self, unknowns: np.ndarray, *, errors: bool = False) -> np.ndarray:
+        """Convert motions, or their errors, per dimensionless elevation, shape (…, body unknowns), to m/m, of rotations
+        to rad/m."""
+        turn = np.abs(self.turn) if errors else self.turn
+        scaled: np.ndarray = unknowns @ turn.T * self.lengths / self.units.length
         return scaled
 
     def _in_motions(self, matrix: np.ndarray, *, errors: bool = False) -> np.ndarray:

@@ -179,6 +179,7 @@ class ResponseTable:
         dofs: m degrees of freedom.
         waves_from: the side from which the waves are incident.
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
+        amplitude_error: (n, w, m) their estimated errors, by that of the largest motion, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of 1/k of
@@ -186,7 +187,8 @@ class ResponseTable:
         drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
         drift_error: (n, w) its estimated error, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
-        relative_error: (n,) estimated relative error of the amplitudes.
+        relative_error: (n,) estimated error of motions and waves, relative to the elevation of the incident wave, or to
+            the largest motion where that is larger.
         plates: one for each beam and each round plate.
         round_plates: one for each round plate.
         hulls: one for each float, if pressures were requested.
@@ -205,6 +207,7 @@ class ResponseTable:
     dofs: tuple[Dof, ...]
     waves_from: Literal["left", "right"]
     amplitudes: Complexes
+    amplitude_error: Floats
     reflection: Complexes | None
     transmission: Complexes | None
     absorption: Floats

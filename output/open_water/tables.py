@@ -170,18 +170,23 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(group, ratios, rows, of(water.DRIFT_ERROR)),
-        lines=thinned,
+        rows=rows_of(group, ratios, rows, of(water.DRIFT_ERROR, water.SCATTERING_WIDTH_ERROR)),
+        lines=(
+            *thinned,
+            "The last column is the error of motions and waves over the incident or the largest one.",
+        ),
     )
     motions, phases = of(water.AMPLITUDES)[:_MOST_MOTIONS], of(water.PHASE_AT_BODY)[:_MOST_MOTIONS]
-    shown_parts = (first, [*motions, *of(water.RESPONSE_ERROR)], phases)
+    shown_parts = (first, motions, phases)
     left_out = len(table.dofs) - len(motions)
     yield Section(
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
         headings=headings_of([*first, *motions], "radiating_dof"),
         rows=[
-            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
-            for begin, sizes, angles in zip(*(rows_of(group, part, rows) for part in shown_parts), strict=True)
+            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=True)))
+            for begin, sizes, angles in zip(
+                *(rows_of(group, part, rows, of(water.AMPLITUDE_ERROR)) for part in shown_parts), strict=True
+            )
         ],
         lines=(
             "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",

@@ -143,6 +143,7 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
         dofs=dofs,
         waves_from=analysis.waves_from,
         amplitudes=_complex(numbers, count, len(waves), len(dofs)),
+        amplitude_error=np.full((count, len(waves), len(dofs)), 1e-7),
         reflection=_complex(numbers, count, len(waves), len(waves)),
         transmission=_complex(numbers, count, len(waves), len(waves)),
         absorption=np.zeros((count, len(waves))),

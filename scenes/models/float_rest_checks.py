@@ -78,7 +78,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         if not found or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
-        arm = stiffness / (at_rest.mass * scene.tank.gravity)
+        arm = stiffness / (at_rest.displaced_mass * scene.tank.gravity)
         keys = ("centre_of_mass", "vertical_centre_of_gravity")
         given = next((key for key in keys if getattr(body, key) is not None), None)
         above_water = given == keys[1] or keys[0] not in type(body).model_fields

@@ -79,5 +79,7 @@ def test_lines_that_stay_above_their_lower_end_or_hang_freely_are_not_warned_of(
     assert taut == []
     hanging = warnings_of(length=100.0, weight=100.0, a={"kind": "free", "weight": 100.0}, b=fixed(0.0, 0.0))
     assert hanging == []
+    in_air = warnings_of(length=120.0, mass=10.0, a=fixed(0.0, -2.0), b=fixed(100.0, 0.0))
+    assert in_air == []
     between_equal_heights = warnings_of(length=120.0, weight=100.0, a=fixed(0.0, 0.0), b=fixed(100.0, 0.0))
     assert between_equal_heights == []

@@ -100,13 +100,15 @@ def _stream(scene: ThreadScene) -> Iterator[str]:
 def _held(scene: ThreadScene) -> Iterator[str]:
     for name, end in (("A", scene.ends.a), ("B", scene.ends.b)):
         yield f"End {name}: {_end(end)}."
-    yield _bed(scene)
+    yield from _bed(scene)
     if scene.load:
         yield f"{len(scene.load)} bodies on the thread, at {', '.join(number(load.at) for load in scene.load)} m."
 
 
-def _bed(scene: ThreadScene) -> str:
+def _bed(scene: ThreadScene) -> Iterator[str]:
     """Whether the line alone, a catenary, hangs below its anchor; of a stream or bodies on it only a run knows."""
+    if scene.stream is None and scene.thread.weight is None:
+        return
     words = None
     if not scene.load:
         thread, a, b = thread_of(scene), scene.ends.a, scene.ends.b
@@ -115,7 +117,7 @@ def _bed(scene: ThreadScene) -> str:
             assert isinstance(a, FixedEnd)
             assert isinstance(b, FixedEnd)
             words = no_sea_bed(scene, (a.position[2], b.position[2]), float(shape.positions[:, 2].min()))
-    return words or "No sea bed is modelled."
+    yield words or "No sea bed is modelled."
 
 
 def _end(end: FixedEnd | FreeEnd | SurfaceEnd) -> str:

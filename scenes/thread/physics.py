@@ -123,7 +123,7 @@ _BELOW = 1e-3
 
 
 def no_sea_bed(scene: ThreadScene, heights: Sequence[float], lowest: float) -> str | None:
-    """Say that no sea bed is modelled if a line hangs below its lower end, and that one is fixed, as an anchor is.
+    """Say that no sea bed is modelled if a line in a liquid hangs below its lower end, which is fixed as an anchor is.
 
     Args:
         scene: the scene.
@@ -132,7 +132,14 @@ def no_sea_bed(scene: ThreadScene, heights: Sequence[float], lowest: float) -> s
     """
     length, (lower, upper) = scene.thread.length, sorted(heights)
     end = scene.ends.a if heights[0] == lower else scene.ends.b
-    if not isinstance(end, FixedEnd) or upper - lower < _BELOW * length or lower - lowest < _BELOW * length:
+    # With a mass and without a liquid it hangs in air, where there is no sea bed.
+    in_liquid = scene.stream is not None or scene.thread.weight is not None
+    if (
+        not in_liquid
+        or not isinstance(end, FixedEnd)
+        or upper - lower < _BELOW * length
+        or lower - lowest < _BELOW * length
+    ):
         return None
     return (
         f"No sea bed is modelled: the line hangs down to z = {lowest:.6g} m, {lower - lowest:.4g} m below its lower "

@@ -17,7 +17,7 @@ PROGRAM = (sys.executable, "-m", "hydroelastic.scenes")
 
 @pytest.mark.parametrize("name", SUBSET)
 def test_what_users_receive_is_what_it_was(name: str, tmp_path: Path) -> None:
-    # Within the sum of the errors that both state. After a change that is meant the command `reference` makes them anew.
+    # Within the sum of the errors that both state. After a change that is meant, `reference` makes them anew.
     reference = REFERENCE / f"{name}.json"
     if not reference.is_file():
         pytest.skip("its record has not been made yet: python3 tests/support/golden_corpus.py reference")

@@ -95,20 +95,39 @@ CURVES = ("response_curve.csv", "spectrum.csv", "branches.csv", "study.csv")
 
 
 def printed(command: str, text: str) -> Record:
-    """What `check` and `compare` print: fields and sizes, or tables."""
+    """What `check` and `compare` print: the unknown fields, and tables of older theories."""
     if command == "check":
-        rows = [[cell.strip() for cell in line.strip("│").split("│")] for line in text.splitlines() if line[:1] == "│"]
-        numbers = [float(word) for word in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?\b|\bnan\b|\binf\b", text)]
-        names = [row[0] for row in rows if row[0]]
-        return {"check: names": names, "check: a number is NaN": any(map(math.isnan, numbers))}
+        numbers = re.findall(r"\bnan\b", text)
+        return {"check: fields": _first_column(text, "field"), "check: a number is not known": bool(numbers)}
     found: Record = {}
-    for line in text.splitlines() if command == "compare" else ():
+    headings: list[str] = []
+    lines = text.splitlines() if command == "compare" else []
+    for before, line in zip(["", *lines], lines, strict=False):
         name, *cells = re.split(r"\s{2,}", line.strip())
-        values = [_number(cell) for cell in cells]
-        if cells and None not in values[:1]:
-            kept = np.array([value for value in values if value is not None])
-            found[f"compare: {name}"] = entry(kept, 2e-3 * np.abs(kept))
+        if set(name) == {"─"}:
+            headings = re.split(r"\s{2,}", before.strip())
+        elif cells and len(cells) + 1 == len(headings):
+            # Differences from the field solution are those of small errors.
+            kept = [
+                _number(cell)
+                for heading, cell in zip(headings[1:], cells, strict=True)
+                if not re.search("difference|to field|seconds|left out|error", heading)
+            ]
+            values = np.array([value for value in kept if value is not None])
+            found[f"compare: {name}"] = entry(values, 2e-3 * np.abs(values))
     return found
+
+
+def _first_column(text: str, heading: str) -> list[str]:
+    """The first column of the printed table with this heading."""
+    names, inside = [], False
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in re.split("[│┃]", line)[1:-1]]
+        if line.startswith("┃"):
+            inside = cells[0] == heading
+        elif line.startswith("│") and inside and cells[0]:
+            names.append(cells[0])
+    return names
 
 
 def record_of(folder: Path) -> Record:

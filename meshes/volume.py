@@ -222,7 +222,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         joined, still, replaced = join_hulls(above, water, hulls)
         layers = {joined if tag == above else tag: name for tag, name in layers.items()}
         del faces[replaced]
-        faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
+        faces |= dict.fromkeys(still, FREE_SURFACE) | {tag: name for name, tags in hulls.items() for tag in tags}
     return _Parts(layers=layers, faces=faces, volume=volume)
 
 

@@ -19,7 +19,7 @@ from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integra
 from hydroelastic.meshes.volume import VolumeSizes, depth_over, volume_mesh
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
 
-# Largest multiple of cells around curved walls, where they are inverted.
+# Largest multiple of cells around curved walls where they are inverted, and of all where gmsh fails.
 _MOST_AROUND = 3
 # Most cells around a curved wall that are tried where they are inverted by a refinement.
 _MOST_COARSE = 48
@@ -78,19 +78,26 @@ def distributed_volume(
 
 
 def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:
-    """A mesh with more cells around curved walls where they would be inverted."""
+    """A mesh with more cells around curved walls where they would be inverted, and with smaller ones everywhere where
+    gmsh fails: large ones beside the thin rim of a hull, whose sides then cross."""
+    failure: MeshError | None = None
     for more in range(1, _MOST_AROUND + 1):
+        refined = replace(sizes, around=more * sizes.around)
+        if failure is not None and not isinstance(failure, FoldedError):
+            refined = replace(refined, edge=sizes.edge / more, bulk=sizes.bulk / more)
         try:
-            return volume_mesh(tank, replace(sizes, around=more * sizes.around), mirrors)
-        except FoldedError as error:
-            if more == _MOST_AROUND:
-                if isinstance(tank.bed, SurveyedBed):
-                    raise MisplacedError(
-                        "the smooth bed through the points is too steep between them, or rises to the still level: "
-                        "cells over it are inverted"
-                    ) from error
-                raise
-    raise AssertionError
+            return volume_mesh(tank, refined, mirrors)
+        except MisplacedError:
+            raise
+        except MeshError as error:
+            failure = error
+    if isinstance(failure, FoldedError) and isinstance(tank.bed, SurveyedBed):
+        raise MisplacedError(
+            "the smooth bed through the points is too steep between them, or rises to the still level: "
+            "cells over it are inverted"
+        ) from failure
+    assert failure is not None
+    raise failure
 
 
 def _shaped(tank: VolumeTank, mesh: Mesh, volume: float) -> tuple[float, float]:

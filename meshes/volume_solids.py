@@ -156,11 +156,12 @@ def gap_of_solids(one: SolidFloat, other: SolidFloat | Rectangle | Disc) -> floa
         MeshError: if the file of a hull cannot be read.
     """
     with gmsh_model():
-        is_float = isinstance(other, SolidFloat)
-        first = _wetted_part(one, other.bounds if is_float else bounds_of(other))
-        second = _wetted_part(other, one.bounds) if is_float else _prism(face(other), 2.0 * one.draught)
+        if isinstance(other, SolidFloat):
+            first, second = _wetted_part(one, other.bounds), _wetted_part(other, one.bounds)
+        else:
+            first, second = _wetted_part(one, bounds_of(other)), _prism(face(other), 2.0 * one.draught)
         gmsh.model.occ.synchronize()
-        if _is_around(one, second) or (is_float and _is_around(other, first)):
+        if _is_around(one, second) or (isinstance(other, SolidFloat) and _is_around(other, first)):
             return 0.0
         pairs = product(first, second)
         return min((float(gmsh.model.occ.getDistance(*a, *b)[0]) for a, b in pairs), default=inf)

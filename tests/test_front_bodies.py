@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from itertools import pairwise
+from math import cos, pi, sin
+from pathlib import Path
+from typing import Any, TypeAlias
 
+import gmsh
 import pytest
+from click.testing import CliRunner
 
 import hydroelastic as he
+from hydroelastic.scenes.command_line import main
+
+Place: TypeAlias = tuple[float, float, float]
 
 WATER = {"density": 1000.0, "depth": 8.0}
 RING = {"kind": "float", "shape": "revolved", "outline": [[2.0, -1.0], [3.0, -1.0], [3.0, 1.0], [2.0, 1.0]]}
@@ -194,3 +202,146 @@ def test_the_stated_error_of_a_volume_covers_its_difference_from_the_solid_of_re
     revolved = round_tank(body, tolerance=1e-6, volume=False, modes=8)
     ratios = excess(round_tank(body, tolerance=tolerance, volume=True, modes=8), revolved)
     assert max(ratios) < 1.0
+
+
+def square(half: float) -> list[tuple[float, float]]:
+    return [(-half, -half), (half, -half), (half, half), (-half, half)]
+
+
+def circle(radius: float, count: int) -> list[tuple[float, float]]:
+    angles = [2.0 * pi * number / count for number in range(count)]
+    return [(radius * cos(angle), radius * sin(angle)) for angle in angles]
+
+
+def walls(*loops: tuple[list[tuple[float, float]], float]) -> list[tuple[Place, Place, Place]]:
+    """Triangles of the faces from each loop of corners at a height to the next one, which has as many corners."""
+    found: list[tuple[Place, Place, Place]] = []
+    for (one, low), (other, high) in pairwise(loops):
+        for number in range(len(one)):
+            after = (number + 1) % len(one)
+            a, b, c, d = (*one[number], low), (*one[after], low), (*other[after], high), (*other[number], high)
+            found += [(a, b, c), (a, c, d)]
+    return found
+
+
+def hull_file(file: Path, triangles: list[tuple[Place, Place, Place]]) -> Path:
+    facets = (
+        "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in corners)
+        for corners in triangles
+    )
+    file.write_text("solid x\n" + "".join(one + "endloop\nendfacet\n" for one in facets) + "endsolid x\n")
+    return file
+
+
+def hull(file: Path, **more: Any) -> dict[str, Any]:
+    given = {
+        "shape": "hull",
+        "file": str(file),
+        "vertical_centre_of_gravity": -0.6,
+        "radii_of_gyration": [1.0, 1.2, 1.3],
+    }
+    return given | more
+
+
+def square_ring(folder: Path) -> Path:
+    """A square ring of 4 m with a moonpool of 2 m, immersed by 1 m; open above the water."""
+    outer, inner = square(2.0), square(1.0)
+    return hull_file(folder / "ring.stl", walls((inner, 0.5), (inner, -1.0), (outer, -1.0), (outer, 0.5)))
+
+
+SPHERE = {"shape": "sphere", "radius": 0.4}
+
+
+@pytest.mark.parametrize("inside", [(), (SPHERE,)], ids=["empty", "with a sphere"])
+def test_a_moonpool_of_triangles_is_that_of_the_solid(inside: tuple[dict[str, Any], ...], tmp_path: Path) -> None:
+    """Two meshes of one tank: of triangles, and of a solid of CAD. The sixth mode is the water of the moonpool's."""
+    with_solid = tmp_path / "ring.step"
+    gmsh.initialize(interruptible=False)
+    gmsh.option.setNumber("General.Verbosity", 0)
+    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    boxes = [(3, gmsh.model.occ.addBox(-half, -half, -1.0, 2.0 * half, 2.0 * half, 1.5)) for half in (2.0, 1.0)]
+    gmsh.model.occ.cut(boxes[:1], boxes[1:])
+    gmsh.model.occ.synchronize()
+    gmsh.write(str(with_solid))
+    gmsh.finalize()
+    accuracy = {"accuracy": {"tolerance": 1e-1, "modes": 8}}
+    one, other = (
+        he.solve(box(hull(file), *inside) | accuracy).summary["modes"] for file in (square_ring(tmp_path), with_solid)
+    )
+    for mode, same in zip(one, other, strict=True):
+        assert abs(mode["omega"] / same["omega"] - 1.0) < mode["relative_error"] + same["relative_error"]
+
+
+def test_a_body_in_the_wall_of_a_hull_of_triangles_is_refused(tmp_path: Path) -> None:
+    file = square_ring(tmp_path)
+    he.read(box(hull(file), SPHERE))
+    for x in (6.7, 7.5):
+        with pytest.raises(he.SceneError, match=r"overlaps or touches \[\[body\]\] number 1"):
+            he.read(box(hull(file), SPHERE | {"position": [x, 4.0]}))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turn", [0, 31])
+def test_a_thin_rim_is_meshed_in_any_order_of_its_triangles(turn: int, tmp_path: Path) -> None:
+    """A column on a plate of 2 m radius and 0.02 m thickness of 48 chords, beside the solid of revolution, which is
+    larger by the chords: 1 − sin(2π/48)/(2π/48) = 2.9e-3 of the volume, and so at most half of it in frequency."""
+    wide, thin, middle = circle(2.0, 48), circle(0.7, 48), (0.0, 0.0, -1.5)
+    bottom = [((*two, -1.5), (*one, -1.5), middle) for one, two in pairwise([*wide, wide[0]])]
+    triangles = bottom + walls((wide, -1.5), (wide, -1.48), (thin, -1.48), (thin, 0.5))
+    file = hull_file(tmp_path / "rim.stl", triangles[turn:] + triangles[:turn])
+    body = hull(file, vertical_centre_of_gravity=-1.2)
+    outline = [[0.0, -1.5], [2.0, -1.5], [2.0, -1.48], [0.7, -1.48], [0.7, 0.5], [0.0, 0.5]]
+    revolved = {"shape": "revolved", "outline": outline, "vertical_centre_of_gravity": -1.2}
+    one, other = (he.solve(box(given, tolerance=1e-2)).summary["modes"][0] for given in (body, revolved))
+    assert one["kind"] == other["kind"] == "heave"
+    stated = one["relative_error"] + other["relative_error"]
+    assert abs(one["omega"] / other["omega"] - 1.0) < stated + 1.5e-3
+
+
+def command(*words: str) -> tuple[int, str]:
+    found = CliRunner().invoke(main, words)
+    return found.exit_code, " ".join(found.output.split())
+
+
+def test_a_ledge_at_the_still_level_is_told_with_both_waterplanes(tmp_path: Path) -> None:
+    """A block of 4 m with another one of 2 m on it: 16 m² below the ledge, 4 m² above."""
+    wide, narrow = square(2.0), square(1.0)
+    bottom = [
+        ((-2.0, -2.0, -1.0), (2.0, 2.0, -1.0), (2.0, -2.0, -1.0)),
+        ((-2.0, -2.0, -1.0), (-2.0, 2.0, -1.0), (2.0, 2.0, -1.0)),
+    ]
+    hull_file(tmp_path / "ledge.stl", bottom + walls((wide, -1.0), (wide, 0.0), (narrow, 0.0), (narrow, 0.5)))
+    scene = tmp_path / "ledge.toml"
+    scene.write_text(
+        'kind = "tank"\ntank = {length = 12.0, width = 8.0}\nliquid = [{density = 1000.0, depth = 4.0}]\n'
+        'accuracy = {tolerance = 1e-1, modes = 1}\n[[body]]\nkind = "float"\nshape = "hull"\nfile = "ledge.stl"\n'
+        'vertical_centre_of_gravity = -0.9\nradii_of_gyration = [0.7, 1.2, 1.3]\nmotions = ["heave"]\n'
+    )
+    said = (
+        "lie exactly at the still level. The waterplane just below them is taken, of 16 m²; just above them it is 4 m²."
+    )
+    for words in (("check", str(scene)), ("run", str(scene), "--no-images", "--out", str(tmp_path / "out"))):
+        code, output = command(*words)
+        assert code == 0
+        assert said in output
+    (rest,) = he.load(tmp_path / "out").summary["bodies"]
+    assert rest["heave_stiffness"] == pytest.approx(1000.0 * 9.81 * 16.0)
+    code, output = command("check", str(scene), "--set", "body.1.draught=0.999")
+    assert code == 0
+    assert "still level. The waterplane" not in output
+
+
+def test_a_float_of_no_draught_is_one_error_of_check_and_run(tmp_path: Path) -> None:
+    changes = ("--set", "body.1.draught=3e-8")
+    out = tmp_path / "out"
+    checked, run = (
+        command("check", "barge_in_a_dock", *changes),
+        command("run", "barge_in_a_dock", *changes, "--out", str(out)),
+    )
+    assert checked == run
+    code, said = checked
+    assert code == 2
+    assert said.count("Error") == 1
+    assert 'key "draught" = 3e-08' in said
+    assert "Allowed: 0.0003 m at least" in said
+    assert not out.exists()

@@ -74,7 +74,7 @@ def distributed_volume(
             return distributed_volume(tank, replace(sizes, around=2 * sizes.around), mirrors, comm, require)
     # What cells lose that are straightened is lost where the wall is curved most: the added mass of a float feels it.
     displaced = [solid.hydrostatics.volume / image_count(mirrors) for solid in tank.floats]
-    return mesh, _GEOMETRY * (abs(meshed / volume - 1.0) + straightened / min(volume, *displaced))
+    return mesh, _GEOMETRY * (abs(meshed / volume - 1.0) + straightened / min([volume, *displaced]))
 
 
 def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:

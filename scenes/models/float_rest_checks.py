@@ -13,9 +13,7 @@ from hydroelastic.scenes.models.float_checks import SMALLEST_GAP, Box, extents
 from hydroelastic.scenes.models.problems import problem_at
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from hydroelastic.physics.contours import Array
     from hydroelastic.scenes.models.tank_parts import TankParts
 
 # Relative rounding of a number that is printed with six digits.
@@ -75,7 +73,7 @@ def _gap(scene: TankParts, first: int, second: int) -> float:
     return gap_between(_polyline(scene, first), _polyline(scene, second))
 
 
-def _polyline(scene: TankParts, index: int) -> NDArray[np.float64]:
+def _polyline(scene: TankParts, index: int) -> Array:
     import numpy as np
 
     from hydroelastic.physics.point_contours import closed_polyline

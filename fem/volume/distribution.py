@@ -90,7 +90,7 @@ def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> V
         except MisplacedError:
             raise
         except MeshError as error:
-            failure = error
+            failure = failure or error
     if isinstance(failure, FoldedError) and isinstance(tank.bed, SurveyedBed):
         raise MisplacedError(
             "the smooth bed through the points is too steep between them, or rises to the still level: "

@@ -141,6 +141,6 @@ def _ledges(floats: Sequence[FloatAtRest]) -> Iterator[str]:
         if above is not None:
             yield (
                 f"Attention: horizontal faces of {one.shape} {one.number} lie exactly at the still level. The "
-                f"waterplane just below them is taken, of {one.waterplane_area:.6g} m²; just above them it is {above:.6g} m². "
-                "Change the draught a little to choose between both."
+                f"waterplane just below them is taken, of {one.waterplane_area:.6g} m²; just above them it is "
+                f"{above:.6g} m². Change the draught a little to choose between both."
             )

@@ -41,6 +41,9 @@ _CLOSED = 1e-4
 _BINARY_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 # Part of the extent: corners this close are one; binary files hold single precision.
 _SAME_PLACE = 1e-6
+# Part of the extent: triangles this close to the still level lie in it, as in `Triangles.below`; and part of the height
+# by which another level is above them.
+_IN_LEVEL, _JUST_ABOVE = 1e-7, 1e-4
 
 
 def wetted_hull(file: Path, *, draught: float | None = None, volume: float | None = None) -> WettedHull:
@@ -83,7 +86,25 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
         high=most,
         hydrostatics=found,
         symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
+        waterplane_above=_waterplane_above(file, level) if _has_face_in(file, level) else None,
     )
+
+
+def _has_face_in(file: Path, level: float) -> bool:
+    """Whether a face of a hull lies in the still level, as a ledge or a deck does."""
+    if file.suffix.lower() == ".stl":
+        triangles = triangles_of(file, file.stat().st_mtime_ns)
+        heights = triangles.points[triangles.corners][:, :, 2] - level
+        return bool((np.abs(heights) < _IN_LEVEL * np.ptp(triangles.points, axis=0).max()).all(axis=1).any())
+    with _solid(file) as solid:
+        gmsh.model.occ.synchronize()
+        return any(lies_in_plane(tag, 2, level) for _, tag in gmsh.model.getBoundary(solid, oriented=False))
+
+
+def _waterplane_above(file: Path, level: float) -> float:
+    low, high = extent(file)
+    above = level + _JUST_ABOVE * (high - low)
+    return hydrostatics_at(file, above)[0].waterplane if above < high else 0.0
 
 
 def _symmetries(file: Path, level: float, middle: tuple[float, float]) -> tuple[bool, bool]:

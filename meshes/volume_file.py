@@ -203,7 +203,7 @@ def _mesh_in_metres(file: Path, _changed: int) -> tuple[NodedMesh, float]:
     if np.abs(mesh.points[surface, 2]).max() > _LEVEL * np.ptp(mesh.points):
         raise MeshError(f'the surface "{FREE_SURFACE}" of {file} is not level')
     try:
-        mesh = checked(mesh, tips=True)
+        mesh, _ = checked(mesh)
     except FoldedError as error:
         raise MeshError(f"{file} holds a curved cell that is inverted") from error
     declared = mesh.facets[mesh.facet_tags == mesh.facet_names.get(BAFFLE, -1)]

@@ -59,7 +59,7 @@ _MOST_ATTEMPTS = 5
 # plates in boxes and cylinders, a baffle on a bed, and floating cylinders. By the decay of the energy with the
 # degree 0.36 to 0.57 of the error is shown at edges, all of it at corners; by what the third degree adds to the second
 # one, which has no tips, 0.8, 0.62, and 0.95 of waves.
-_DECAY = (3.0, 1.8, 1.3, 1.8)
+_DECAY = (3.0, 1.8, 2.4, 1.8)
 _CUBIC = (1.5, 1.9, 1.9, 1.2)
 # Cells up to this multiple of the size at edges belong to them.
 _AT_EDGES = 4.0

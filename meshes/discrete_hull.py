@@ -22,6 +22,8 @@ _SHARP = 30.0 * pi / 180.0
 # Numbers of parts of OpenCASCADE begin here, so that none of a hull has them too; those made of both have the second.
 _FIRST, _JOINED = 100_000, 200_000
 _TRIANGLE = 2
+# Of each curve of a loop, when it is asked what lies inside.
+_PIECES = 100
 
 
 def add_hulls(floats: dict[str, SolidFloat]) -> dict[str, list[int]]:
@@ -69,7 +71,7 @@ def release_numbers() -> None:
     gmsh.model.occ.remove([(3, _FIRST)], recursive=True)
 
 
-def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) -> tuple[int, int, int]:
+def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) -> tuple[int, list[int], int]:
     """Replace a volume of OpenCASCADE by one that leaves out hulls.
 
     Args:
@@ -78,7 +80,8 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
         hulls: faces of each hull.
 
     Returns:
-        Numbers of the volume, of the still surface around the hulls, and of that which it replaces.
+        Numbers of the volume, of the still surfaces around the hulls and in their moonpools, and of that which they
+        replace.
 
     Raises:
         MisplacedError: if a waterline does not lie in one face of still water.
@@ -99,11 +102,14 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
     rims.sort(key=lambda loop: -float(np.ptp([box_around((1, tag)) for tag in loop], axis=(0, 1)).max()))
     boundary = [tag for _, tag in model.getBoundary([(3, liquid)], oriented=False) if tag != replaced]
     inside = {dim: model.mesh.getEmbedded(dim, tag) for dim, tag in ((2, replaced), (3, liquid))}
-    still = geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in (*rims, *waterlines)], _JOINED)
-    shell = [*boundary, still, *(tag for faces in hulls.values() for tag in faces)]
+    still = [
+        geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in loops], _JOINED + number)
+        for number, loops in enumerate(_waters(rims[0], rims[1:], waterlines))
+    ]
+    shell = [*boundary, *still, *(tag for faces in hulls.values() for tag in faces)]
     volume = geo.addVolume([geo.addSurfaceLoop(shell)], _JOINED)
     geo.synchronize()
-    for dim, parent in ((2, still), (3, volume)):
+    for dim, parent in ((2, still[0]), (3, volume)):
         for own in range(dim):
             tags = [tag for entity, tag in inside[dim] if entity == own]
             if tags:
@@ -111,6 +117,44 @@ def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) ->
     gmsh.model.occ.remove([(3, liquid), (2, replaced)])
     gmsh.model.occ.synchronize()
     return volume, still, replaced
+
+
+def _waters(rim: list[int], holes: list[list[int]], waterlines: list[list[int]]) -> list[list[list[int]]]:
+    """The loops of each part of the still surface, the outer one first: around all hulls, and in each moonpool.
+
+    A waterline in an odd number of others is the rim of a moonpool; all else inside of it belongs to its water.
+    """
+    lines = [_polyline(loop) for loop in waterlines]
+
+    def around(loop: list[int]) -> list[int]:
+        place = _polyline(loop)[0, 0]
+        return [number for number, line in enumerate(lines) if waterlines[number] != loop and _encloses(line, place)]
+
+    pools = {number for number, loop in enumerate(waterlines) if len(around(loop)) % 2}
+    waters = {-1: [rim], **{number: [waterlines[number]] for number in sorted(pools)}}
+    for loop in (*holes, *(loop for number, loop in enumerate(waterlines) if number not in pools)):
+        # The innermost of those around it lies in the most others.
+        owner = max(pools.intersection(around(loop)), key=lambda number: len(around(waterlines[number])), default=-1)
+        waters[owner].append(loop)
+    return list(waters.values())
+
+
+def _polyline(loop: list[int]) -> FloatArray:
+    """Starts and ends of short pieces of curves in the plan, shape (pieces, 2, 2)."""
+    pieces = []
+    for tag in loop:
+        (first,), (last,) = gmsh.model.getParametrizationBounds(1, tag)
+        places = np.array(gmsh.model.getValue(1, tag, np.linspace(first, last, _PIECES + 1).tolist())).reshape(-1, 3)
+        pieces.append(np.stack([places[:-1, :2], places[1:, :2]], axis=1))
+    return np.concatenate(pieces)
+
+
+def _encloses(line: FloatArray, place: FloatArray) -> bool:
+    """Whether a ray from a place crosses the pieces of a closed line an odd number of times."""
+    start, end = np.moveaxis(line - place, 1, 0)
+    passes = (start[:, 1] > 0.0) != (end[:, 1] > 0.0)
+    (x, y), (along, across) = start[passes].T, (end - start)[passes].T
+    return bool(np.count_nonzero(x - y * along / across > 0.0) % 2)
 
 
 def _holds(face: int, loop: list[int]) -> bool:

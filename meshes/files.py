@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.formats import FORMATS
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError, TaggedMesh
 
 _TAG = "gmsh:physical"
 
@@ -111,8 +111,8 @@ def _read(path: Path) -> meshio.Mesh:
 
 
 def _check_geometry(path: Path, points: NDArray[np.float64], cells: NDArray[np.int64]) -> None:
-    if not np.isfinite(points).all():
-        raise MeshError(f"mesh file {path} holds a node whose coordinates are no finite numbers")
+    if not (np.abs(points) < FARTHEST).all():
+        raise MeshError(f"mesh file {path} holds a node whose coordinates are not finite, or beyond {FARTHEST:g} m")
     if cells.min() < 0 or cells.max() >= len(points):
         raise MeshError(f"mesh file {path} holds a triangle with a node that is not there")
     sides = points[cells[:, 1:], :2] - points[cells[:, :1], :2]

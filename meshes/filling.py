@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
+from tempfile import TemporaryDirectory
 
 import gmsh
 import numpy as np
@@ -84,8 +86,10 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
 def gmsh_model() -> Iterator[None]:
     """A new gmsh model with default options and without messages; gmsh is initialized once in a process."""
     if not gmsh.isInitialized():
-        # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.
-        gmsh.initialize(readConfigFiles=False, interruptible=False)
+        _initialize_gmsh()
+    # Otherwise it would delete these files of the user, in the home folder, as it restores defaults.
+    gmsh.option.setString("General.SessionFileName", "")
+    gmsh.option.setString("General.OptionsFileName", "")
     # Limits of size that one mesh was given would otherwise hold for the next one too.
     gmsh.option.restoreDefaults()
     gmsh.option.setNumber("General.AbortOnError", 2)  # raise it, as gmsh.initialize has it
@@ -98,11 +102,28 @@ def gmsh_model() -> Iterator[None]:
     except Exception as error:  # gmsh raises bare Exception
         # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()
-        raise MeshError(f"gmsh could not mesh the tank: {error}") from error
+        raise MeshError(
+            "gmsh finds no cells for it; parts that cross, touch or almost touch, or sizes that differ by many powers "
+            "of ten, are the usual reasons"
+        ) from error
     finally:
         if gmsh.isInitialized():
             gmsh.model.mesh.removeSizeCallback()
             gmsh.model.remove()
+
+
+def _initialize_gmsh() -> None:
+    """Start gmsh, with a home folder that goes: FLTK, which it brings, writes preferences there."""
+    home = os.environ.get("HOME")
+    with TemporaryDirectory(prefix="hydroelastic_") as folder:
+        os.environ["HOME"] = folder
+        try:
+            # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.
+            gmsh.initialize(readConfigFiles=False, interruptible=False)
+        finally:
+            del os.environ["HOME"]
+            if home is not None:
+                os.environ["HOME"] = home
 
 
 class _Drawing:

@@ -9,12 +9,13 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.filling import gmsh_model
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError
 from hydroelastic.meshes.triangle_crossings import crossing_place
 from hydroelastic.meshes.volume_file import lies_in_plane, solids_in
 from hydroelastic.physics.wetted_hulls import (
@@ -36,9 +37,13 @@ _SAME = 1e-6
 _AROUND, _DEGREE, _SMALLEST = 16, 4, 0.02
 # Part of the waterplane that the sum of all areas may differ from zero.
 _CLOSED = 1e-4
-_TRIANGLE = 2
+# A triangle of a binary STL file: its normal, its corners, and two bytes that mean nothing.
+_BINARY_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 # Part of the extent: corners this close are one; binary files hold single precision.
 _SAME_PLACE = 1e-6
+# Part of the extent: triangles this close to the still level lie in it, as in `Triangles.below`; and part of the height
+# by which another level is above them.
+_IN_LEVEL, _JUST_ABOVE = 1e-7, 1e-4
 
 
 def wetted_hull(file: Path, *, draught: float | None = None, volume: float | None = None) -> WettedHull:
@@ -81,7 +86,25 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
         high=most,
         hydrostatics=found,
         symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
+        waterplane_above=_waterplane_above(file, level) if _has_face_in(file, level) else None,
     )
+
+
+def _has_face_in(file: Path, level: float) -> bool:
+    """Whether a face of a hull lies in the still level, as a ledge or a deck does."""
+    if file.suffix.lower() == ".stl":
+        triangles = triangles_of(file, file.stat().st_mtime_ns)
+        heights = triangles.points[triangles.corners][:, :, 2] - level
+        return bool((np.abs(heights) < _IN_LEVEL * np.ptp(triangles.points, axis=0).max()).all(axis=1).any())
+    with _solid(file) as solid:
+        gmsh.model.occ.synchronize()
+        return any(lies_in_plane(tag, 2, level) for _, tag in gmsh.model.getBoundary(solid, oriented=False))
+
+
+def _waterplane_above(file: Path, level: float) -> float:
+    low, high = extent(file)
+    above = level + _JUST_ABOVE * (high - low)
+    return hydrostatics_at(file, above)[0].waterplane if above < high else 0.0
 
 
 def _symmetries(file: Path, level: float, middle: tuple[float, float]) -> tuple[bool, bool]:
@@ -141,25 +164,39 @@ def triangles_of(file: Path, _changed: int) -> Triangles:
     Raises:
         MeshError: if there are none.
     """
-    with gmsh_model():
-        try:
-            gmsh.merge(str(file))
-        except Exception as error:
-            raise MeshError(f"{file} cannot be read: {error}") from error
-        tags, places, _ = gmsh.model.mesh.getNodes()
-        _, corners = gmsh.model.mesh.getElementsByType(_TRIANGLE)
-    if not len(corners):
-        raise MeshError(f"{file} holds no triangles")
-    order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    order[tags.astype(np.int64)] = np.arange(len(tags))
-    every = places.reshape(-1, 3)
+    every, corners = np.unique(_corners_of_triangles(file), axis=0, return_inverse=True)
     pairs = cKDTree(every).query_pairs(_SAME_PLACE * np.ptp(every, axis=0).max(), output_type="ndarray")
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(every), len(every)))
     _, part = connected_components(links, directed=False)
     _, first, numbers = np.unique(part, return_index=True, return_inverse=True)
-    triangles = numbers.ravel()[order[corners.astype(np.int64)]].reshape(-1, 3)
+    triangles = numbers.ravel()[corners.reshape(-1, 3)]
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
     return Triangles(points=every[first], corners=triangles[distinct])
+
+
+def _corners_of_triangles(file: Path) -> NDArray[np.float64]:
+    """Read an STL file: three corners for each triangle, m, shape (3 triangles, 3)."""
+    try:
+        content = file.read_bytes()
+        count = int.from_bytes(content[80:84], "little")
+        # Binary files may begin with "solid" as well.
+        if content.lstrip()[:5].lower() == b"solid" and len(content) != 84 + count * _BINARY_TRIANGLE.itemsize:
+            lines = [line.split() for line in content.decode("latin-1").lower().splitlines()]
+            corners = np.array([line[1:] for line in lines if line[:1] == ["vertex"]], dtype=np.float64)
+        else:
+            corners = np.frombuffer(content, _BINARY_TRIANGLE, count, offset=84)["corners"].astype(np.float64)
+        triangles = corners.reshape(-1, 3, 3)
+    except (OSError, ValueError) as error:
+        raise MeshError(f"{file} cannot be read: it is broken, or not an STL file, of text or binary") from error
+    if not len(triangles):
+        raise MeshError(f"{file} holds no triangles")
+    are_places = (np.abs(triangles) < FARTHEST).all(axis=(1, 2))
+    if not are_places.all():
+        raise MeshError(
+            f"triangle {1 + are_places.argmin()} in {file} has a corner whose coordinates are not finite, or beyond "
+            f"{FARTHEST:g} m"
+        )
+    return triangles.reshape(-1, 3)
 
 
 def wetted_triangles(file: Path, level: float) -> Triangles:

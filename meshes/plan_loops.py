@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.crossings import crossing_pair
+from hydroelastic.physics.point_contours import distance_from
 
 RATIO = 0.2
 """Ratio of the thicknesses of successive layers beside an edge."""
@@ -245,18 +246,11 @@ def room_between(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
 def _gap(one: Loop, other: Loop) -> float:
     """Distance of two loops: of the points of one from the straight pieces between those of the other."""
     first, second = (loop.parallel(0.0, loop.places(_extent(loop) / 60.0, UNGRADED, UNGRADED)) for loop in (one, other))
-    gap = min(_distance(first, second), _distance(second, first))
+    gap = min(distance_from(first, second), distance_from(second, first))
     if gap < max(_extent(one), _extent(other)) / 60.0:
         starts, ends = (np.vstack([np.roll(loop, turn, axis=0) for loop in (first, second)]) for turn in (0, -1))
         gap = 0.0 if crossing_pair(starts, ends) is not None else gap
     return gap
-
-
-def _distance(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:
-    sides = np.roll(corners, -1, axis=0) - corners
-    away = points[:, None] - corners
-    parts = np.clip((away * sides).sum(axis=2) / (sides**2).sum(axis=1), 0.0, 1.0)
-    return float(np.linalg.norm(away - parts[..., None] * sides, axis=2).min())
 
 
 def _extent(loop: Loop) -> float:

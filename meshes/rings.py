@@ -76,8 +76,7 @@ def wedge_nodes(
     # In (0, 2π]: at the tip of a slit the liquid has the full angle.
     openings = 2.0 * pi - np.mod(outgoing.angles - incoming.angles, 2.0 * pi)
     if openings.min() < _NARROWEST_WEDGE or np.ptp(openings) > pi:
-        x, y = corner
-        raise MeshError(f"at ({x:g}, {y:g}) two curves bound a wedge of less than a degree")
+        raise MeshError("at a corner two curves bound a wedge of less than a degree")
     sectors = ceil(float(openings.max()) / _WIDEST_SECTOR - 1e-6)
     parts = np.linspace(0.0, openings, sectors + 1, axis=1)
     directions = incoming.angles[:, None] - parts

@@ -17,6 +17,10 @@ class MisplacedError(MeshError):
     """Parts of a tank that do not fit together as they are given."""
 
 
+FARTHEST = 1e30
+"""Largest coordinate that files may have, m: products of several are still numbers."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CurvedCells:
     """Cells whose geometry is polynomial; all the others are straight.

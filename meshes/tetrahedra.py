@@ -35,12 +35,14 @@ class VolumeMesh:
         volume: the exact volume, of the part that is meshed.
         surfaces: of a mesh to be refined, the surface on which nodes of a group of facets lie, or of several groups.
         curved: of a mesh to be refined, whether any of them is curved.
+        straightened: volume by which straightened cells changed.
     """
 
     noded: NodedMesh
     volume: float
     surfaces: dict[tuple[str, ...], Surface] = field(default_factory=dict)
     curved: bool = False
+    straightened: float = 0.0
 
 
 def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None = None) -> NodedMesh:
@@ -108,12 +110,15 @@ class FoldedError(MeshError):
     """A cell at a curved wall is inverted: smaller ones there help."""
 
 
-def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
-    """Refuse inverted cells, or straighten them.
+def checked(mesh: NodedMesh, *, straighten: bool = True) -> tuple[NodedMesh, float]:
+    """Straighten cells that a curved wall inverts, as it does in holes and at tips; or refuse them.
 
     Args:
         mesh: the mesh.
-        tips: whether walls may have tips, as cones: cells there are straightened.
+        straighten: whether the straight cells are known to be good.
+
+    Returns:
+        The mesh, and the volume by which straightened cells changed.
 
     Raises:
         FoldedError: if cells are inverted.
@@ -121,18 +126,27 @@ def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
     """
     if not len(mesh.facets):
         raise MeshError("the liquid has no still surface at z = 0")
+    changed = 0.0
     for _ in range(_PASSES):
         (folded,) = np.nonzero(smallest_jacobians(mesh) < _SMALLEST_JACOBIAN)
         if not len(folded):
-            return mesh
-        if not tips:
+            return mesh, changed
+        if not straighten:
             break
         places = _element(mesh).points
         corners = np.column_stack([1.0 - places.sum(axis=1), places])
         points = mesh.points.copy()
         points[mesh.cells[folded]] = corners @ mesh.points[mesh.cells[folded, :4]]
-        mesh = replace(mesh, points=points)
+        straight = replace(mesh, points=points)
+        changed += float(np.abs(_volumes(straight, folded) - _volumes(mesh, folded)).sum())
+        mesh = straight
     raise FoldedError("a cell at a curved wall is inverted: ask for a smaller tolerance, or leave a wider gap")
+
+
+def _volumes(mesh: NodedMesh, cells: NDArray[np.int64]) -> NDArray[np.float64]:
+    """∫det J over some cells, negative where they are inverted."""
+    points, weights = basix.make_quadrature(basix.CellType.tetrahedron, 3 * mesh.degree + 3)
+    return np.asarray(_determinants(replace(mesh, cells=mesh.cells[cells]), points) @ weights)
 
 
 def smallest_jacobians(mesh: NodedMesh) -> NDArray[np.float64]:

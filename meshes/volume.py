@@ -42,6 +42,7 @@ from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Cylinder, FilePlan, middle_of
 from hydroelastic.physics.plate import Disc
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
@@ -140,12 +141,12 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
     # Parts of curved cells may be thinner than these are curved; they are inverted only where these are.
-    mesh = checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats)
+    mesh, straightened = checked(mesh, straighten=not isinstance(tank.bed, SurveyedBed))
     mesh = with_edge_layers(mesh, segments, corners, sizes.layers)
     cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
     if cuts:
         mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
-    return VolumeMesh(noded=mesh, volume=volume)
+    return VolumeMesh(noded=mesh, volume=volume, straightened=straightened)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,7 +222,7 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         joined, still, replaced = join_hulls(above, water, hulls)
         layers = {joined if tag == above else tag: name for tag, name in layers.items()}
         del faces[replaced]
-        faces |= {still: FREE_SURFACE} | {tag: name for name, tags in hulls.items() for tag in tags}
+        faces |= dict.fromkeys(still, FREE_SURFACE) | {tag: name for name, tags in hulls.items() for tag in tags}
     return _Parts(layers=layers, faces=faces, volume=volume)
 
 
@@ -316,10 +317,15 @@ def _kinds() -> set[str]:
     return {gmsh.model.getType(2, tag) for _, tag in gmsh.model.getEntities(2)}
 
 
+def _least_radius(solid: SolidFloat) -> float:
+    """Of an outline it is that of its narrowest corner: of a hole, a column or a blunt tip."""
+    return min([0.5 * min(solid.size), *(r for r, z in solid.outline if r > 0.0 and z <= 0.0)])
+
+
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
     """Cells grow from singular edges, and follow curved walls."""
     mesh = gmsh.model.mesh
-    around = [pi * min(solid.size) / sizes.around for solid in tank.floats if solid.shape != "box"]
+    around = [2.0 * pi * _least_radius(solid) / sizes.around for solid in tank.floats if solid.shape != "box"]
     gaps = [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
     around += [2.0 * pi * one.radius / sizes.around for one in tank.columns if isinstance(one, Disc)]
     around += [size for _, size in gaps]

@@ -2,22 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 from math import inf
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import gmsh
 import numpy as np
 
+from hydroelastic.meshes.cut_volume import cut_volume, with_regions
+from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.filling import gmsh_model
-from hydroelastic.meshes.geometry import FREE_SURFACE
-from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_volume, read_gmsh
+from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE
+from hydroelastic.meshes.inner_walls import boundary_facets, require_declared_walls
+from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError
+from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, checked, mesh_volume, read_gmsh
 from hydroelastic.physics.level_tank import FilePlan
 
 # A face at this height, in units of the tank, is of the still surface.
 _LEVEL = 1e-6
+# Six times the volume of a tetrahedron over the cube of its sides: less is rounding.
+_FLAT = 1e-12
+
+# What files are, and how they begin; gmsh runs what begins otherwise as a script.
+_STEP = "a STEP file of CAD, ISO 10303-21", (b"ISO-10303-21;",)
+_KINDS = {
+    ".step": _STEP,
+    ".stp": _STEP,
+    ".brep": ("a BREP file of OpenCASCADE", (b"DBRep_DrawableShape", b"CASCADE Topology")),
+    ".msh": (FORMATS[".msh"], (b"$MeshFormat", b"$Comments")),
+}
 
 _Entities = list[tuple[int, int]]
 
@@ -27,7 +45,7 @@ def file_plan(file: Path, fill: float) -> FilePlan:
 
     Args:
         file: it.
-        fill: height of the still surface above the lowest point, m.
+        fill: height of the still surface above the lowest point, m; a mesh has its own.
 
     Raises:
         MeshError: if it cannot be read, or does not hold what is needed.
@@ -39,7 +57,8 @@ def file_plan(file: Path, fill: float) -> FilePlan:
 def _file_plan(file: Path, fill: float, _changed: int) -> FilePlan:
     plan = FilePlan(file=file, fill=fill, length=1.0, middle=(0.0, 0.0), area=1.0)
     if file.suffix.lower() == ".msh":
-        mesh = mesh_of_file(plan).noded
+        mesh, baffles = _mesh_in_metres(file, _changed)
+        plan = replace(plan, fill=-float(mesh.points[:, 2].min()), baffles=baffles)
         surface = mesh.points[mesh.facets]
         sides = surface[:, 1:, :2] - surface[:, :1, :2]
         area = 0.5 * float(np.abs(np.linalg.det(sides)).sum())
@@ -58,7 +77,9 @@ def _file_plan(file: Path, fill: float, _changed: int) -> FilePlan:
             raise MeshError("the liquid has no still surface: its highest face is not level")
     extent = (high - low)[:2]
     x, y = map(float, 0.5 * (low + high)[:2])
-    return replace(plan, length=float(extent.max()), middle=(x, y), area=area)
+    return replace(
+        plan, length=float(extent.max()), size=(float(extent[0]), float(extent[1])), middle=(x, y), area=area
+    )
 
 
 def lies_in_plane(tag: int, axis: int, level: float) -> bool:
@@ -73,6 +94,31 @@ def lies_in_plane(tag: int, axis: int, level: float) -> bool:
     )
 
 
+@contextmanager
+def readable_by_gmsh(file: Path) -> Iterator[str]:
+    """Give the path of a copy of a file of data in a folder of its own: gmsh also runs what stands in FILE.opt.
+
+    Raises:
+        MeshError: if the file, by its first bytes, is not what its name says, or gmsh cannot read it.
+    """
+    try:
+        content = file.read_bytes().lstrip()
+    except OSError as error:
+        raise MeshError(f"{file} cannot be read: {error.strerror}") from error
+    suffix = file.suffix.lower()
+    kind, beginnings = _KINDS[suffix]
+    broken = f"{file} cannot be read: it is broken, or not {kind}"
+    if not content.startswith(beginnings):
+        raise MeshError(broken)
+    with TemporaryDirectory(prefix="hydroelastic_") as folder:
+        copy = Path(folder, f"copy{suffix}")
+        copy.write_bytes(content)
+        try:
+            yield str(copy)
+        except Exception as error:  # gmsh raises bare Exception
+            raise MeshError(broken) from error
+
+
 def solids_in(file: Path, metres: float) -> _Entities:
     """Read the solids of a file into the current model, in a unit of length.
 
@@ -82,9 +128,8 @@ def solids_in(file: Path, metres: float) -> _Entities:
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
     try:
-        return [one for one in gmsh.model.occ.importShapes(str(file)) if one[0] == 3]
-    except Exception as error:  # gmsh raises bare Exception
-        raise MeshError(f"{file} cannot be read as a file of CAD") from error
+        with readable_by_gmsh(file) as copy:
+            return [one for one in gmsh.model.occ.importShapes(copy) if one[0] == 3]
     finally:
         gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
 
@@ -135,21 +180,61 @@ def _extremes(solids: _Entities, low: float, high: float) -> tuple[float, float]
 
 
 def mesh_of_file(plan: FilePlan) -> VolumeMesh:
-    """A mesh of gmsh with the group free_surface, of any degree."""
+    """A mesh of gmsh with the group free_surface, of any degree, in the unit of a plan."""
+    mesh, _ = _mesh_in_metres(plan.file, plan.file.stat().st_mtime_ns)
+    scaled = replace(mesh, points=np.asarray(mesh.points / plan.metres, dtype=np.float64))
+    return VolumeMesh(noded=scaled, volume=mesh_volume(scaled))
+
+
+@lru_cache(maxsize=1)
+def _mesh_in_metres(file: Path, _changed: int) -> tuple[NodedMesh, float]:
+    """Read a mesh, with its still surface at z = 0, and the area of its declared walls, m²."""
     with gmsh_model():
-        gmsh.merge(str(plan.file))
-        names = {gmsh.model.getPhysicalName(dim, tag): (dim, tag) for dim, tag in gmsh.model.getPhysicalGroups(2)}
-        if FREE_SURFACE not in names:
-            there = ", ".join(sorted(names)) or "none"
-            raise MeshError(f'{plan.file} has no physical surface "{FREE_SURFACE}" (there are: {there})')
-        degrees = {int(gmsh.model.mesh.getElementProperties(kind)[2]) for kind in gmsh.model.mesh.getElementTypes(3)}
-        if len(degrees) != 1:
-            raise MeshError(f"{plan.file} does not hold tetrahedra of one degree")
-        faces = gmsh.model.getEntitiesForPhysicalGroup(*names[FREE_SURFACE])
-        mesh = read_gmsh(degrees.pop(), {int(tag): FREE_SURFACE for tag in faces})
-    points = mesh.points / plan.metres
-    points[:, 2] -= points[mesh.facets, 2].mean()
-    if np.abs(points[mesh.facets, 2]).max() > _LEVEL * np.ptp(points):
-        raise MeshError(f'the surface "{FREE_SURFACE}" of {plan.file} is not level')
-    mesh = checked(tips=True, mesh=replace(mesh, points=np.asarray(points, dtype=np.float64)))
-    return VolumeMesh(noded=mesh, volume=mesh_volume(mesh))
+        with readable_by_gmsh(file) as copy:
+            gmsh.merge(copy)
+        mesh = _tetrahedra(file)
+    surface = mesh.facets[mesh.facet_tags == mesh.facet_names[FREE_SURFACE]]
+    if not len(surface):
+        raise MeshError(f'the surface "{FREE_SURFACE}" of {file} holds no triangles')
+    outer = np.sort(boundary_facets(mesh.cells[:, :4])[0], axis=1)
+    if len(np.unique(np.vstack([outer, np.sort(surface, axis=1)]), axis=0)) > len(outer):
+        raise MeshError(f'faces of the surface "{FREE_SURFACE}" of {file} are not on the boundary of its tetrahedra')
+    mesh.points[:, 2] -= mesh.points[surface, 2].mean()
+    if np.abs(mesh.points[surface, 2]).max() > _LEVEL * np.ptp(mesh.points):
+        raise MeshError(f'the surface "{FREE_SURFACE}" of {file} is not level')
+    try:
+        mesh, _ = checked(mesh)
+    except FoldedError as error:
+        raise MeshError(f"{file} holds a curved cell that is inverted") from error
+    declared = mesh.facets[mesh.facet_tags == mesh.facet_names.get(BAFFLE, -1)]
+    opened = cut_volume(mesh, (BAFFLE,), ()) if len(declared) else mesh
+    area = require_declared_walls(opened.points, opened.cells[:, :4], declared, str(file))
+    return with_regions(opened), area
+
+
+def _tetrahedra(file: Path) -> NodedMesh:
+    """The tetrahedra of the current model, with the faces of named groups; m."""
+    kinds = [gmsh.model.mesh.getElementProperties(kind) for kind in gmsh.model.mesh.getElementTypes(3)]
+    if not kinds:
+        raise MeshError(f"{file} holds no tetrahedra")
+    others = sorted({name.split()[0].lower() for name, *_ in kinds if not name.startswith("Tetrahedron")})
+    if others:
+        raise MeshError(f"{file} holds cells of other kinds ({', '.join(others)}); only tetrahedra are read")
+    if len(kinds) > 1:
+        raise MeshError(f"{file} holds tetrahedra of several degrees; only those of one are read")
+    names = {gmsh.model.getPhysicalName(dim, tag): (dim, tag) for dim, tag in gmsh.model.getPhysicalGroups(2)}
+    if FREE_SURFACE not in names:
+        there = ", ".join(sorted(names)) or "none"
+        raise MeshError(f'{file} has no physical surface "{FREE_SURFACE}" (there are: {there})')
+    groups = [name for name in (FREE_SURFACE, BAFFLE) if name in names]
+    faces = {int(tag): name for name in groups for tag in gmsh.model.getEntitiesForPhysicalGroup(*names[name])}
+    mesh = read_gmsh(kinds[0][2], faces)
+    if not (np.abs(mesh.points) < FARTHEST).all():
+        raise MeshError(f"{file} holds a node whose coordinates are not finite, or beyond {FARTHEST:g} m")
+    corners = mesh.points[mesh.cells[:, :4]]
+    sides = corners[:, 1:] - corners[:, :1]
+    flat = np.abs(np.linalg.det(sides)) <= _FLAT * np.linalg.norm(sides, axis=2).max(axis=1) ** 3
+    if flat.any():
+        x, y, z = corners[flat.argmax()].mean(axis=0)
+        raise MeshError(f"{file} holds a tetrahedron without volume near ({x:g}, {y:g}, {z:g})")
+    return mesh

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from math import atan, hypot, inf, pi
+from itertools import product
+from math import atan, hypot, inf, pi, sqrt
 
 import gmsh
 import numpy as np
 
-from hydroelastic.meshes.hull_file import hull_solid
+from hydroelastic.meshes.filling import gmsh_model
+from hydroelastic.meshes.hull_file import hull_solid, wetted_triangles
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MisplacedError
 from hydroelastic.meshes.volume_file import solid_of_file
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, middle_of
 from hydroelastic.physics.obstacles import Baffle, VerticalBaffle
-from hydroelastic.physics.plate import Disc, Outline, Rectangle, Strip
+from hydroelastic.physics.plate import Bounds, Disc, Outline, Rectangle, Strip, bounds_of
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
 
@@ -135,10 +138,77 @@ def float_solid(solid: SolidFloat) -> Entities:
     if solid.shape == "cylinder":
         return [(3, occ.addCylinder(x, y, -depth, 0.0, 0.0, 2.0 * depth, 0.5 * solid.size[0]))]
     if solid.shape == "revolved":
-        section = _polygon([(x + r, y, z) for r, z in solid.outline])
+        # The seam lies where planes of symmetry leave nothing: in one, edges of it and of the plane would coincide.
+        section = _polygon([(x - r * sqrt(0.5), y - r * sqrt(0.5), z) for r, z in solid.outline])
         return [one for one in occ.revolve(section, x, y, 0.0, 0.0, 0.0, 1.0, 2.0 * pi) if one[0] == 3]
     along, across = solid.size
     return [(3, occ.addBox(x - 0.5 * along, y - 0.5 * across, -depth, along, across, 2.0 * depth))]
+
+
+def gap_of_solids(one: SolidFloat, other: SolidFloat | Rectangle | Disc) -> float:
+    """Return the least distance, m, of the wetted parts of two floats, or of a float and a column; 0 where they meet.
+
+    Args:
+        one: a float, in SI units.
+        other: another one, or the outline of a column.
+
+    Raises:
+        MeshError: if the file of a hull cannot be read.
+    """
+    with gmsh_model():
+        if isinstance(other, SolidFloat):
+            first, second = _wetted_part(one, other.bounds), _wetted_part(other, one.bounds)
+        else:
+            first, second = _wetted_part(one, bounds_of(other)), _prism(face(other), 2.0 * one.draught)
+        gmsh.model.occ.synchronize()
+        if _is_around(one, second) or (isinstance(other, SolidFloat) and _is_around(other, first)):
+            return 0.0
+        pairs = product(first, second)
+        return min((float(gmsh.model.occ.getDistance(*a, *b)[0]) for a, b in pairs), default=inf)
+
+
+def _is_triangulated(solid: SolidFloat) -> bool:
+    return solid.hull is not None and solid.hull.is_triangulated
+
+
+def _wetted_corners(solid: SolidFloat) -> FloatArray:
+    """Corners of the wetted triangles of a hull, shape (triangles, 3, 3)."""
+    assert solid.hull is not None
+    triangles = wetted_triangles(solid.hull.file, solid.hull.level)
+    return np.asarray(triangles.points[triangles.corners] + np.array([*solid.origin, 0.0]))
+
+
+def _wetted_part(solid: SolidFloat, near: Bounds) -> Entities:
+    """The wetted part of a float; of a hull of triangles, those of them over a part of the plan."""
+    if _is_triangulated(solid):
+        corners, (low, high) = _wetted_corners(solid), np.transpose(near)
+        over = (corners.min(axis=1)[:, :2] <= high).all(axis=1) & (corners.max(axis=1)[:, :2] >= low).all(axis=1)
+        return [made for triangle in corners[over].tolist() for made in _polygon(triangle)]
+    body = float_solid(solid)
+    left, front, low, right, back, _ = gmsh.model.occ.getBoundingBox(*body[0])
+    pad = right - left
+    lengths = (right - left + 2.0 * pad, back - front + 2.0 * pad, pad - low)
+    below = gmsh.model.occ.addBox(left - pad, front - pad, low - pad, *lengths)
+    return [one for one in gmsh.model.occ.intersect(body, [(3, below)])[0] if one[0] == 3]
+
+
+def _is_around(solid: SolidFloat, parts: Entities) -> bool:
+    """Whether a part of another body lies inside of a hull of triangles, of which only the surface is compared.
+
+    The solid angle of the surface and of its image in the still level, 2 arctan(a·(b × c) / (abc + …)) of each triangle
+    (Van Oosterom and Strackee 1983), is 4π inside.
+    """
+    if not _is_triangulated(solid) or not parts:
+        return False
+    (point, *_) = gmsh.model.getBoundary(parts[:1], combined=False, oriented=False, recursive=True)
+    place = np.array(gmsh.model.getValue(*point, []))
+    corners, angle = _wetted_corners(solid), 0.0
+    for side in (1.0, -1.0):
+        one, other, third = np.moveaxis(corners * [1.0, 1.0, side] - place, 1, 0)
+        a, b, c = (np.linalg.norm(side_of, axis=1) for side_of in (one, other, third))
+        below = a * b * c + (one * other).sum(1) * c + (other * third).sum(1) * a + (third * one).sum(1) * b
+        angle += side * 2.0 * float(np.arctan2((one * np.cross(other, third)).sum(1), below).sum())
+    return abs(angle) > 2.0 * pi
 
 
 def require_inside(name: str, solids: Entities, liquid: Entities) -> None:

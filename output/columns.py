@@ -104,13 +104,23 @@ def headings_of(columns: Sequence[Column], told: str) -> Row:
 def rows_of(group: Group, columns: Sequence[Column], places: Sequence[int], errors: Sequence[Column] = ()) -> list[Row]:
     """Some rows of columns, with digits by their errors, which are among them or given; of complex numbers the
     magnitudes."""
-    whole = {column.quantity.key: column.values for column in (*columns, *errors) if not column.places}
+    own_errors = [_error_of(column, (*columns, *errors)) for column in columns]
     rows = []
     for place in places:
-        values = {key: json_ready(found[place]) for key, found in whole.items()}
-        cells = [(column.quantity, json_ready(_size(column.values[place]))) for column in columns]
-        rows.append(tuple(quantity.cell(values | {quantity.key: value}, group) for quantity, value in cells))
+        row = []
+        for column, error in zip(columns, own_errors, strict=True):
+            values = {column.quantity.key: json_ready(_size(column.values[place]))}
+            if error is not None:
+                values[error.quantity.key] = json_ready(error.values[place])
+            row.append(column.quantity.cell(values, group))
+        rows.append(tuple(row))
     return rows
+
+
+def _error_of(column: Column, others: Sequence[Column]) -> Column | None:
+    """The error that a quantity names, at the places of a column."""
+    named = (other for other in others if other.quantity.key == column.quantity.error)
+    return next((other for other in named if other.places.items() <= column.places.items()), None)
 
 
 def _size(value: Any) -> Any:

@@ -31,6 +31,7 @@ OF_ALL_SCENES = Group(
         SCENE := Quantity("scene", "the scene as read, with its defaults and overrides", variable=""),
         STATUS := Quantity("status", '`"ok"` or `"unconverged"`', variable=""),
         REASONS := Quantity("reasons", "reasons why the tolerance is not reached", dimensions=("reason",)),
+        WARNINGS := Quantity("warnings", "what the model leaves out and these results show", dimensions=("warning",)),
         TIMING := Quantity("timing", "wall-clock time of a stage", "s", dimensions=("stage",)),
         MEMORY_PEAK := Quantity("memory_peak", "largest memory of all processes together", "byte"),
         VERSIONS := Quantity("versions", "version of a package", dimensions=("package",)),
@@ -88,6 +89,12 @@ def read_summary(summary: Summary, kind: Group = OF_ALL_SCENES) -> Reading:
     return Reading(Group("", kind.meaning, parts), summary)
 
 
+def warnings_of(summary: Summary) -> tuple[str, ...]:
+    """Return the warnings of a summary; results of earlier versions have none."""
+    told = read_summary(summary)
+    return tuple(told[WARNINGS]) if WARNINGS in told else ()
+
+
 def spent(summary: Reading, memory: str = "") -> str:
     """Return seconds by stage and memory, the end of the line on the cost of a solution.
 
@@ -110,6 +117,8 @@ class Solved(Protocol):
     def seconds(self) -> dict[str, float]:
         """Time by stage."""
 
+    # A solution may have `warnings` too: sentences on what the model leaves out and its results show.
+
 
 def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_seconds: float = 0.0) -> Summary:
     """Return the content of ``summary.json`` (collective: peak memory is summed over processes).
@@ -124,6 +133,7 @@ def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_se
         SCENE.key: scene,
         STATUS.key: "unconverged" if solution.reasons else "ok",
         REASONS.key: list(solution.reasons),
+        WARNINGS.key: list(getattr(solution, "warnings", ())),
         **kind.evaluated(solution),
         TIMING.key: {"import": import_seconds, **solution.seconds},
         MEMORY_PEAK.key: memory_of_processes(_all_processes()),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from hydroelastic.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
-from hydroelastic.output.provenance import REASONS, SCENE, STATUS, Summary, read_summary
+from hydroelastic.output.provenance import REASONS, SCENE, STATUS, Summary, read_summary, warnings_of
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -54,6 +54,8 @@ def printed_sections(
     console.print(title_of(summary), markup=False)
     for number, line in enumerate(status_lines(summary)):
         console.print(f"  - {line}" if number else line, markup=False, style="bold")
+    for warning in warnings_of(summary):
+        console.print(f"WARNING: {warning}", markup=False, style="bold")
     for section in sections:
         console.print(section.title, markup=False)
         if section.rows:
@@ -90,6 +92,7 @@ def markdown_sections(summary: Summary, sections: Iterable[Section], cost: str) 
     parts = [f"# {markdown_text(title_of(summary))}", ""]
     complaint, *reasons = status_lines(summary) or [""]
     parts += [f"**{complaint}**", *(f"- {markdown_text(reason)}" for reason in reasons), ""] if complaint else []
+    parts += [f"**WARNING: {markdown_text(warning)}**\n" for warning in warnings_of(summary)]
     for section in sections:
         parts += [f"## {markdown_text(section.title)}", ""]
         headings, *rows = (tuple(map(markdown_text, row)) for row in (section.headings, *section.rows))

@@ -1,4 +1,8 @@
-"""A rigid section, or solid of revolution, at rest at a still level: equilibrium by Archimedes' law, and stiffness."""
+"""A rigid section, or solid of revolution, at rest at a still level: equilibrium by Archimedes' law, and stiffness.
+
+Moorings may add a constant vertical force F at the centre of mass G: m g = g Σ ρⱼ Aⱼ + F. About G neither it nor the
+weight has a moment, however the float turns: the pressures alone restore it, with g Σ ρⱼ Aⱼ in the place of m g.
+"""
 
 from __future__ import annotations
 
@@ -28,6 +32,7 @@ class Hydrostatics:
 
     Attributes:
         mass: m, kg/m.
+        displaced_mass: Σ ρⱼ Aⱼ, kg/m: the same without a vertical force.
         level: ordinate of the still level at which it floats, m.
         reference_level: ordinate of the shape's reference level, m.
         areas: of the section below and above the level, m²; volumes of a solid.
@@ -42,6 +47,7 @@ class Hydrostatics:
     """
 
     mass: float
+    displaced_mass: float
     level: float
     reference_level: float
     areas: tuple[float, float]
@@ -74,6 +80,7 @@ class Hydrostatics:
         x, y = self.centre_of_mass
         return Hydrostatics(
             mass=self.mass / (units.density * volume),
+            displaced_mass=self.displaced_mass / (units.density * volume),
             level=self.level / length,
             reference_level=self.reference_level / length,
             areas=(self.areas[0] / volume, self.areas[1] / volume),
@@ -100,11 +107,11 @@ class Hydrostatics:
 
 
 def still_level(contour: Contour | SolidOfRevolution, mass: float | None, densities: tuple[float, float]) -> float:
-    """Return the ordinate of the still level in a float's frame, by Archimedes: ρ₂ A₂ + ρ₁ A₁ = m.
+    """Return the ordinate of the still level in a float's frame, by Archimedes: ρ₂ A₂ + ρ₁ A₁ is the displaced mass.
 
     Args:
         contour: in the float's frame, m.
-        mass: m, kg/m, or kg of a solid; None floats with the reference level y = 0 at the still level.
+        mass: displaced, kg/m, or kg of a solid; None floats with the reference level y = 0 at the still level.
         densities: ρ₂ below and ρ₁ above the level, kg/m³.
 
     Raises:
@@ -132,6 +139,7 @@ def hydrostatics(
     gravity: float,
     centre_of_mass: float | None = None,
     radius_of_gyration: float | None = None,
+    vertical_force: float = 0.0,
 ) -> Hydrostatics:
     """Return the hydrostatics of a float at rest, in a frame with its position and the still level as origin.
 
@@ -142,6 +150,7 @@ def hydrostatics(
         gravity: m/s².
         centre_of_mass: height of G above the reference level, m; by default that of the section's area.
         radius_of_gyration: about G, m; by default that of the homogeneous section.
+        vertical_force: F of moorings, upwards, N/m, or N of a solid.
 
     Raises:
         ValueError: if the level does not meet the contour in two points.
@@ -149,8 +158,8 @@ def hydrostatics(
     chain = contour.below(0.0)
     left, right = chain[0].start[0], chain[-1].end[0]
     whole, parts = contour.moments(), (contour.moments(0.0, side="below"), contour.moments(0.0, side="above"))
-    mass = sum(density * part.area for density, part in zip(densities, parts, strict=True))
-    x_mass = sum(density * part.first[0] for density, part in zip(densities, parts, strict=True)) / mass
+    displaced = sum(density * part.area for density, part in zip(densities, parts, strict=True))
+    x_mass = sum(density * part.first[0] for density, part in zip(densities, parts, strict=True)) / displaced
     y_mass = whole.centroid[1] if centre_of_mass is None else centre_of_mass - immersion
     restoring = gravity * (densities[0] - densities[1])
     width, second = contour.waterplane(left, right)
@@ -158,10 +167,11 @@ def hydrostatics(
     middle = 0.0 if is_solid else _sum_or_zero(0.5 * left, 0.5 * right, -x_mass)
     about_middle = restoring * second
     lever = [gravity * density * part.first[1] for density, part in zip(densities, parts, strict=True)]
-    lever.append(-gravity * mass * y_mass)
+    lever.append(-gravity * displaced * y_mass)
     about_mass = about_middle + restoring * width * middle**2
     return Hydrostatics(
-        mass=mass,
+        mass=displaced + vertical_force / gravity,
+        displaced_mass=displaced,
         level=0.0,
         reference_level=-immersion,
         areas=(parts[0].area, parts[1].area),

@@ -95,6 +95,8 @@ class FilePlan:
         length: the larger side of the box around the still surface, m.
         middle: x and y of the middle of that box, m.
         area: of the still surface, m².
+        size: both sides of that box, along x and y, m.
+        baffles: area of the thin walls that a mesh declares, m².
         metres: the unit of the other lengths, m.
     """
 
@@ -103,12 +105,21 @@ class FilePlan:
     length: float
     middle: Point
     area: float
+    size: Point = (0.0, 0.0)
+    baffles: float = 0.0
     metres: float = 1.0
 
     @property
     def unit(self) -> float:
         """The unit of length of the dimensionless tank, m."""
         return self.length
+
+    @property
+    def measures(self) -> str:
+        """What the file holds, as far as a wrong unit or a forgotten wall would show."""
+        along, across = self.size
+        baffles = f", with {self.baffles:.5g} m² of baffles" if self.baffles else ""
+        return f"{along:.5g} m × {across:.5g} m at the still surface, {self.fill:.5g} m deep{baffles}"
 
     def scaled(self, length: float) -> FilePlan:
         """Return it in units of a length."""
@@ -118,6 +129,8 @@ class FilePlan:
             length=self.length / length,
             middle=scaled_point(self.middle, length),
             area=self.area / length**2,
+            size=scaled_point(self.size, length),
+            baffles=self.baffles / length**2,
             metres=self.metres * length,
         )
 

@@ -163,6 +163,23 @@ class Polygon:
 Outline: TypeAlias = Rectangle | Strip | Disc | Polygon
 """The outline of a plate at rest; a ring is a disc with an inner radius."""
 
+Bounds: TypeAlias = tuple[Point, Point]
+"""Least and largest x, and least and largest y, m."""
+
+
+def bounds_of(outline: Outline) -> Bounds:
+    """Return the box around an outline, m."""
+    if isinstance(outline, Strip):
+        return (outline.start, outline.end), (0.0, outline.width)
+    if isinstance(outline, Rectangle):
+        (x, y), (length, width) = outline.position, outline.size
+        return (x - 0.5 * length, x + 0.5 * length), (y - 0.5 * width, y + 0.5 * width)
+    if isinstance(outline, Disc):
+        (x, y), radius = outline.position, outline.radius
+        return (x - radius, x + radius), (y - radius, y + radius)
+    along, across = zip(*outline.points, strict=True)
+    return (min(along), max(along)), (min(across), max(across))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plate:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import radians
+from math import inf, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,8 @@ which the spline would bend."""
 
 # Straight parts into which a smooth piece between two points is divided to test whether a contour crosses itself.
 _PARTS = 4
+# Points times sides whose distances are held at once.
+_MOST_PAIRS = 1_000_000
 # Areas below this part of the square of the contour's size are rounding.
 _ROUND_OFF = 1e-12
 
@@ -166,9 +168,54 @@ def self_crossing(contour: Contour) -> Point | None:
     return None
 
 
-def _sampled(arc: Arc) -> Array:
+def closed_polyline(contour: Contour) -> Array:
+    """Return points all around a contour, shape (n, 2); chords leave a half circle by 2e-5 of its radius."""
+    return np.concatenate([_sampled(arc, 256) for arc in contour.arcs])
+
+
+def gap_between(one: Array, other: Array) -> float:
+    """Return the least distance, m, of two bodies inside closed polylines, shape (n, 2); 0 where they meet."""
+    if _is_inside(one[0], other) or _is_inside(other[0], one):
+        return 0.0
+    steps = np.roll(other, -1, axis=0) - other
+    for start, step in zip(one, np.roll(one, -1, axis=0) - one, strict=True):
+        crossed = _cross(step, steps)
+        places = np.flatnonzero(crossed)
+        from_start = (other - start)[places]
+        parts = np.array([_cross(from_start, steps[places]), _cross(from_start, step)]) / crossed[places]
+        if ((parts >= 0.0) & (parts <= 1.0)).all(axis=0).any():
+            return 0.0
+    return min(distance_from(one, other), distance_from(other, one))
+
+
+def distance_from(points: Array, corners: Array) -> float:
+    """Return the least distance of points from the sides of a closed polyline."""
+    sides = np.roll(corners, -1, axis=0) - corners
+    squares = np.maximum((sides**2).sum(axis=1), np.finfo(float).tiny)
+    nearest = inf
+    for some in np.array_split(points, 1 + points.size * len(corners) // _MOST_PAIRS):
+        away = some[:, None] - corners
+        parts = np.clip((away * sides).sum(axis=2) / squares, 0.0, 1.0)
+        nearest = min(nearest, float(np.linalg.norm(away - parts[..., None] * sides, axis=2).min()))
+    return nearest
+
+
+def _cross(one: Array, other: Array) -> Array:
+    return np.asarray(one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0])
+
+
+def _is_inside(point: Array, polyline: Array) -> bool:
+    """Whether a ray from a point to the right crosses a closed polyline an odd number of times."""
+    start, end = polyline - point, np.roll(polyline, -1, axis=0) - point
+    passes = (start[:, 1] > 0.0) != (end[:, 1] > 0.0)
+    start, end = start[passes], end[passes]
+    reached = start[:, 0] - start[:, 1] * (end - start)[:, 0] / (end - start)[:, 1]
+    return bool(np.count_nonzero(reached > 0.0) % 2)
+
+
+def _sampled(arc: Arc, least: int = 8 * _PARTS) -> Array:
     edges = np.array([0.0, *arc.knots, 1.0])
-    parts = 1 if arc.straight else _PARTS * max(1, 8 // (len(edges) - 1))
+    parts = 1 if arc.straight else max(_PARTS, least // (len(edges) - 1))
     return arc.point(np.linspace(edges[:-1], edges[1:], parts, endpoint=False).T.ravel())
 
 

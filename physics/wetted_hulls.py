@@ -95,6 +95,8 @@ class WettedHull:
         symmetric: whether it is known to be its own mirror image, in planes normal to x and to y through the centre of
             buoyancy.
         metres: the unit of all lengths but ``level``, m.
+        waterplane_above: area of the waterplane just above horizontal faces in the still level, m²; ``None`` without
+            such a face.
     """
 
     file: Path
@@ -104,6 +106,7 @@ class WettedHull:
     hydrostatics: Hydrostatics
     symmetric: tuple[bool, bool]
     metres: float = 1.0
+    waterplane_above: float | None = None
 
     @property
     def is_triangulated(self) -> bool:

@@ -20,6 +20,7 @@ from hydroelastic.meshes.interrupts import end_on_interrupt
 from hydroelastic.output.folder import results_message
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
+from hydroelastic.output.provenance import warnings_of
 from hydroelastic.scenes.command_options import (
     animate_option,
     dpi_option,
@@ -187,7 +188,10 @@ def run(
         )
     for warning in outcome.warnings:
         click.echo(f"Warning: {warning}", err=True)
-    if not quiet:
+    if quiet:
+        for warning in warnings_of(outcome.summary):
+            click.echo(f"Warning: {warning}", err=True)
+    else:
         click.echo(outcome.table())
     if outcome.status == "unconverged":
         if quiet:

@@ -84,6 +84,12 @@ class SceneError(Exception):
         return "\n  ".join([heading, *shown])
 
 
+def cannot_be_meshed(error: Exception, file: str | Path | None = None) -> SceneError:
+    """Return the error of a scene whose liquid cannot be meshed."""
+    remedy = "Change the shapes, places or sizes that it comes from"
+    return SceneError(Problem(wrong=f"the liquid cannot be meshed: {error}", remedy=remedy), file=file)
+
+
 @contextmanager
 def folder_errors(option: str = "") -> Iterator[None]:
     """Turn the error of a result folder that cannot be written into a message of the same form as all others.

@@ -120,8 +120,8 @@ def test_a_file_that_is_no_mesh_is_refused(
 @pytest.mark.parametrize(
     ("number", "place", "said"),
     [
-        (2, [np.nan, -1.0, 0.0], "a node whose coordinates are no finite numbers"),
-        (2, [1e300, np.inf, 0.0], "a node whose coordinates are no finite numbers"),
+        (2, [np.nan, -1.0, 0.0], "a node whose coordinates are not finite"),
+        (2, [1e300, np.inf, 0.0], "a node whose coordinates are not finite"),
         (2, [0.5, -0.5, 0.0], r"a triangle without area near"),
     ],
 )

@@ -235,7 +235,8 @@ def test_the_exit_code_tells_whether_the_tolerance_was_met(
 
     def run_scene(scene: Any, **settings: Any) -> Any:
         asked.update(settings)
-        return types.SimpleNamespace(status=status, table=lambda: "the table", warnings=("none",), reasons=("why",))
+        told = {"summary": {}, "warnings": ("none",), "reasons": ("why",)}
+        return types.SimpleNamespace(status=status, table=lambda: "the table", **told)
 
     monkeypatch.setitem(sys.modules, "hydroelastic.scenes.tank.run", solver_that(run_scene))
     result = invoke("run", "aquarium")

@@ -37,7 +37,7 @@ class OpenFrequency:
         incidence: the travelling waves, first those to the right, then those to the left.
         hydrodynamic: H, shape (body unknowns, body unknowns).
         diffraction: Fᵀφ_D of each incident wave, shape (waves, body unknowns).
-        potentials: returns ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
+        potentials: returns `radiated` and `diffracted`.
     """
 
     model: OpenModel
@@ -45,11 +45,20 @@ class OpenFrequency:
     incidence: Incidence
     hydrodynamic: np.ndarray
     diffraction: np.ndarray
-    potentials: Callable[[], np.ndarray]
+    potentials: Callable[[], tuple[np.ndarray, np.ndarray]]
 
-    @cached_property
+    @property
     def radiated(self) -> np.ndarray:
         """ψ of a unit of each body unknown, shape (body unknowns, free unknowns)."""
+        return self._potentials[0]
+
+    @property
+    def diffracted(self) -> np.ndarray:
+        """φ_D of each incident wave, shape (waves, free unknowns)."""
+        return self._potentials[1]
+
+    @cached_property
+    def _potentials(self) -> tuple[np.ndarray, np.ndarray]:
         return self.potentials()
 
     @property
@@ -73,6 +82,49 @@ class OpenFrequency:
         """λ∫ρφ φᵢ for each incident wave, shape (waves, body unknowns)."""
         return self.squared * self.incidence.pressures
 
+    @property
+    def fluxes(self) -> np.ndarray:
+        """I(φ) = X/λ of the waves radiated by a unit of each body unknown, shape (waves, body unknowns): Haskind's
+        relation."""
+        fluxes: np.ndarray = self.incidence.pressures + self.diffraction
+        return fluxes
+
+    def flux_errors(self, unmeshed: float) -> np.ndarray:
+        """Estimate errors of `fluxes`, of the same shape (collective).
+
+        The Galerkin method changes I(φ) by A_λ(φ_D − φ_Dh, ψⱼ − ψⱼh), which is at most the sum of √(E_D Eⱼ) over the
+        cells, with the energy errors of both. Where a body reaches deeper than the waves, one of both is smooth in each
+        cell: the error is as small as I(φ) itself.
+
+        Args:
+            unmeshed: relative error by curved boundaries and by rounding.
+        """
+        model, waves = self.model, self.incidence
+        missed, count = model.cells_missed(np.vstack([self.radiated, self.diffracted])), len(self.radiated)
+        away, tips = model.summed_over_cells(np.sqrt(missed[count:, None] * missed[:count]))
+        terms = model.pencil.products(np.abs(waves.fluxes), np.abs(self.radiated)) + np.abs(waves.pressures)
+        longest = min(plane.wave.wavenumber for plane in waves.planes)
+        reflected = sum(model.absorbing_layer.reflected(model.basin, longest))
+        errors: np.ndarray = away + tips + unmeshed * terms + reflected * np.linalg.norm(self.fluxes, axis=0)
+        return errors
+
+    @property
+    def radiation_damping(self) -> np.ndarray:
+        """b/ω, by the power of the radiated waves, shape (body unknowns, body unknowns): Re Σ kN c̄ⱼ cₖ of all outgoing
+        waves.
+
+        It is the imaginary part of H; but that is the rest of far larger numbers where bodies hardly make waves.
+        """
+        amplitudes = self.incidence.amplitudes(self.fluxes)
+        damping: np.ndarray = ((amplitudes.conj().T * self.incidence.powers) @ amplitudes).real
+        return damping
+
+    def radiation_damping_errors(self, fluxes: np.ndarray) -> np.ndarray:
+        """Return errors of `radiation_damping`, of the same shape, by those of `fluxes`."""
+        amplitudes, errors = (np.abs(self.incidence.amplitudes(one)) for one in (self.fluxes, fluxes))
+        most, powers = amplitudes + errors, self.incidence.powers
+        return np.asarray((most.T * powers) @ most - (amplitudes.T * powers) @ amplitudes)
+
     def observed_amplitudes(self) -> np.ndarray:
         """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns), from the field at some
         distance from the bodies by `far_field`, not by their surfaces, with which Haskind's relation holds identically
@@ -81,7 +133,7 @@ class OpenFrequency:
         return self.incidence.amplitudes(fluxes)
 
     def energy_residual(self) -> float:
-        """Largest difference between damping and the power of the radiated waves, relative to |H| (collective)."""
+        """Largest difference between Im H and the power of the radiated waves, relative to |H| (collective)."""
         radiated = self.incidence.powers @ np.abs(self.observed_amplitudes()) ** 2
         diagonal = np.diag(self.hydrodynamic)
         return float(np.max(np.abs(diagonal.imag - radiated) / self.model.compared(np.abs(diagonal)), initial=0.0))

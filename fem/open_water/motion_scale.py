@@ -31,9 +31,10 @@ class MotionScale:
     turn: np.ndarray
     lengths: np.ndarray
 
-    def masses(self, matrix: np.ndarray) -> np.ndarray:
-        """Convert a matrix of (added) masses, shape (m, m), to kg/m, to kg for roll with heave, to kg m for roll."""
-        return self.units.density * self.units.volume * self.units.length**2 * self._in_motions(matrix)
+    def masses(self, matrix: np.ndarray, *, errors: bool = False) -> np.ndarray:
+        """Convert a matrix of (added) masses, shape (m, m), to kg/m, to kg for roll with heave, to kg m for roll; or
+        their errors."""
+        return self.units.density * self.units.volume * self.units.length**2 * self._in_motions(matrix, errors=errors)
 
     def unknown_masses(self, masses: np.ndarray) -> np.ndarray:
         """Convert masses in SI units, shape (m, m), to those of the dimensionless body unknowns."""
@@ -60,22 +61,29 @@ class MotionScale:
             paths=forces.paths @ np.linalg.inv(self.turn * self.lengths[:, None]),
         )
 
-    def forces(self, forces: np.ndarray) -> np.ndarray:
+    def forces(self, forces: np.ndarray, *, errors: bool = False) -> np.ndarray:
         """Convert forces per dimensionless elevation, shape (…, body unknowns), to N/m², of moments to N/m, per
-        metre."""
+        metre; or their errors."""
         unit = self.units.density * self.units.gravity * self.units.volume
-        scaled: np.ndarray = unit * (forces @ np.linalg.inv(self.turn)) / self.lengths
+        scaled: np.ndarray = unit * (forces @ self._back(errors=errors))
         return scaled
 
-    def amplitudes(self, unknowns: np.ndarray) -> np.ndarray:
-        """Convert motions per dimensionless elevation, shape (…, body unknowns), to m/m, of rotations to rad/m."""
-        scaled: np.ndarray = unknowns @ self.turn.T * self.lengths / self.units.length
+    def amplitudes(self, unknowns: np.ndarray, *, errors: bool = False) -> np.ndarray:
+        """Convert motions, or their errors, per dimensionless elevation, shape (…, body unknowns), to m/m, of rotations
+        to rad/m."""
+        turn = np.abs(self.turn) if errors else self.turn
+        scaled: np.ndarray = unknowns @ turn.T * self.lengths / self.units.length
         return scaled
 
-    def _in_motions(self, matrix: np.ndarray) -> np.ndarray:
-        back = np.linalg.inv(self.turn * self.lengths[:, None])
+    def _in_motions(self, matrix: np.ndarray, *, errors: bool = False) -> np.ndarray:
+        back = self._back(errors=errors)
         moved: np.ndarray = back.T @ matrix @ back
         return moved
+
+    def _back(self, *, errors: bool = False) -> np.ndarray:
+        """Body unknowns by a unit of each motion as columns; errors add up."""
+        back = np.linalg.inv(self.turn * self.lengths[:, None])
+        return np.abs(back) if errors else back
 
 
 def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:

@@ -108,7 +108,9 @@ def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> Radia
         dofs=dofs,
         added_mass=matrices("added_mass"),
         radiation_damping=matrices("radiation_damping"),
+        radiation_damping_error=matrices("radiation_damping_error"),
         excitation_force=forces("excitation_force"),
+        excitation_force_error=forces("excitation_force_error"),
         froude_krylov_force=forces("froude_krylov_force"),
         diffraction_force=forces("diffraction_force"),
         relative_error=largest("relative_error"),
@@ -130,7 +132,8 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
     frequencies.
     """
     found: list[ResponseSolution] = []
-    last = max(problem.tank.orders)
+    # Long waves scatter as much in the first order as in order 0, in which a body that follows them scatters none.
+    last = max(1, *problem.tank.orders)
     while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
@@ -170,6 +173,7 @@ def _motions_and_waves(problem: OpenWaterProblem, tables: list[ResponseTable]) -
         tables[0],
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
+        amplitude_error=_by_dof(dofs, [(table.dofs, table.amplitude_error) for table in tables]),
         partial_waves=np.concatenate(waves, axis=-1),
         absorption=np.sum(absorption, axis=0),
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),

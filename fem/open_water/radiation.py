@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite, nan
+from math import isfinite, nan, sqrt
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -14,9 +14,11 @@ from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenFrequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import RadiationRequest
+from hydroelastic.fem.open_water.response_errors import unmeshed_error
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
@@ -28,9 +30,13 @@ from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
 
-# Frequencies over √(g/length) that stand for ω = 0: added mass differs from its limit like their squares, and at lower
-# ones rounding is too large. A relative growth above this between the two is that of −ln ω.
-_SLOW = (1e-3, 3e-3)
+# Frequencies of sections over √(g/length) whose added mass is extrapolated to ω = 0, from which it differs like their
+# squares, in deep water times a logarithm. At lower ones a is the rest of a + ib/ω over a bed, where b has a limit.
+_SLOW = (1e-3, 3e-3, 9e-3)
+_SLOW_OVER_A_BED = (2e-2, 6e-2, 0.18)
+# Part of the tolerance there, as the error is relative to a alone.
+_OF_THE_REST = 0.01
+# A relative growth above this between the first two is that of −ln ω.
 _GROWS = 1e-3
 # Number of frequencies of a sweep with an error estimate; between two of them the larger one is taken.
 _ESTIMATED = 5
@@ -80,6 +86,7 @@ class _Sweep:
     model: OpenModel
     swept: Swept[OpenFrequency]
     errors: np.ndarray
+    flux_errors: list[np.ndarray]
     factorizations: int
 
 
@@ -99,10 +106,20 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
             causes = [_causes(swept.solutions[place]) for place in places]
+            unmeshed = unmeshed_error(solver.model)
+            # The error of the basis is relative to the largest entry.
+            flux_errors = [
+                solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
+                for solution, error in zip(swept.solutions, swept.errors, strict=True)
+            ]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(
-                model=solver.model, swept=swept, errors=errors, factorizations=solver.factorizations - before
+                model=solver.model,
+                swept=swept,
+                errors=errors,
+                flux_errors=flux_errors,
+                factorizations=solver.factorizations - before,
             ),
             causes=joined_errors(causes, float(swept.errors.max())),
             resolution=resolution,
@@ -159,14 +176,20 @@ def _tabulated(
     errors = [0.0]
     if attempt is not None:
         errors.append(attempt.error)
-        swept, in_full = attempt.result.swept.solutions, attempt.result.swept.in_full
-        rows |= {row.omega: row for row in map(_row, _finite(request), swept, attempt.result.errors, in_full)}
+        found = attempt.result
+        swept, in_full = found.swept.solutions, found.swept.in_full
+        rows |= {row.omega: row for row in map(_row, _finite(request), swept, found.errors, found.flux_errors, in_full)}
     if np.inf in request.omega:
         matrix, error = infinite_frequency_added_mass(problem, shapes)
         errors.append(error)
         rows[np.inf] = _limit_row(np.inf, scale.masses(matrix), len(waves), error)
+    stiffness = scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies])))
     if 0.0 in request.omega:
         rows[0.0] = _slow_row(problem, shapes, len(waves))
+        if len(waves) == 1:
+            # The still level rises by the elevation: a heave of all bodies by −1.
+            risen = np.array([dof.motion == "heave" for dof in scale.dofs], dtype=float)
+            rows[0.0] = _in_longest_waves(problem.tank, rows[0.0], stiffness @ risen)
         errors.append(rows[0.0].relative_error)
     ordered = [rows[omega] for omega in request.omega]
     table = RadiationTable(
@@ -176,14 +199,16 @@ def _tabulated(
         wavenumbers=np.array([row.wavenumbers for row in ordered]),
         added_mass=np.array([row.added_mass for row in ordered]),
         radiation_damping=np.array([row.radiation_damping for row in ordered]),
+        radiation_damping_error=np.array([row.radiation_damping_error for row in ordered]),
         excitation_force=np.array([row.froude_krylov_force + row.diffraction_force for row in ordered]),
+        excitation_force_error=np.array([row.excitation_force_error for row in ordered]),
         froude_krylov_force=np.array([row.froude_krylov_force for row in ordered]),
         diffraction_force=np.array([row.diffraction_force for row in ordered]),
         relative_error=np.array([row.relative_error for row in ordered]),
         energy_residual=np.array([row.energy_residual for row in ordered]),
         haskind_residual=np.array([row.haskind_residual for row in ordered]),
         inertia=scale.masses(block_diag(*(body.mass for body in bodies))),
-        stiffness=scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies]))),
+        stiffness=stiffness,
         infinite_frequency_added_mass=rows[np.inf].added_mass if np.inf in rows else None,
         factorizations=attempt.result.factorizations if attempt else 0,
         fields_at=request.fields_at,
@@ -203,30 +228,32 @@ class _Row:
     wavenumbers: np.ndarray
     added_mass: np.ndarray
     radiation_damping: np.ndarray
+    radiation_damping_error: np.ndarray
     froude_krylov_force: np.ndarray
     diffraction_force: np.ndarray
+    excitation_force_error: np.ndarray
     relative_error: float
     energy_residual: float
     haskind_residual: float
 
 
-def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
+def _row(omega: float, found: OpenFrequency, error: float, flux_errors: np.ndarray, in_full: bool) -> _Row:
     model, waves = found.model, found.incidence
-    masses = model.scale.masses(found.hydrodynamic)
-    count = len(waves.planes) // waves.directions
+    scale, count = model.scale, len(waves.planes) // waves.directions
 
-    def forces(values: np.ndarray) -> np.ndarray:
+    def of_planes(values: np.ndarray) -> np.ndarray:
         # From (direction, wave) to (wave, direction).
-        moved: np.ndarray = model.scale.forces(waves.plane_forces(model.basin, values)).swapaxes(0, 1)
-        return moved
+        return waves.plane_forces(model.basin, values).swapaxes(0, 1)
 
     return _Row(
         omega=omega,
         wavenumbers=np.array([plane.wave.wavenumber for plane in waves.planes[:count]]) / model.basin.units.length,
-        added_mass=masses.real,
-        radiation_damping=omega * masses.imag,
-        froude_krylov_force=forces(found.froude_krylov_force),
-        diffraction_force=forces(found.diffraction_force),
+        added_mass=scale.masses(found.hydrodynamic.real),
+        radiation_damping=omega * scale.masses(found.radiation_damping),
+        radiation_damping_error=omega * scale.masses(found.radiation_damping_errors(flux_errors), errors=True),
+        froude_krylov_force=scale.forces(of_planes(found.froude_krylov_force)),
+        diffraction_force=scale.forces(of_planes(found.diffraction_force)),
+        excitation_force_error=scale.forces(np.abs(of_planes(found.squared * flux_errors)), errors=True),
         relative_error=float(error),
         # On a reduced basis the field is less accurate than the forces: its residuals are no check of them.
         energy_residual=found.energy_residual() if in_full else nan,
@@ -242,8 +269,10 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
         wavenumbers=np.full(waves, omega),
         added_mass=added_mass,
         radiation_damping=np.zeros_like(added_mass),
+        radiation_damping_error=np.zeros_like(added_mass),
         froude_krylov_force=nothing,
         diffraction_force=nothing,
+        excitation_force_error=nothing.real,
         relative_error=error,
         energy_residual=0.0,
         haskind_residual=0.0,
@@ -251,26 +280,68 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 
 
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
-    """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
+    """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite.
+
+    Damping and forces of sections are those of the lowest frequency solved.
+    """
     if problem.tank.geometry.is_revolved:
         matrix, error = zero_frequency_added_mass(problem, shapes)
         return replace(_limit_row(0.0, matrix, waves, error), wavenumbers=np.zeros(waves))
-    unit = open_basin(problem.tank, 0.0).units.frequency
-    omegas = np.array([factor * unit for factor in _SLOW])
+    length, deep = open_basin(problem.tank, 0.0).units.length, is_infinitely_deep(problem.tank)
+    if not deep:
+        # Waves are to be longer than the depth, and in shallow water than the body.
+        depths = [layer.depth for layer in problem.tank.layers if isfinite(layer.depth)]
+        length = max(length, *depths, length**2 / min(depths))
+        problem = replace(problem, tolerance=_OF_THE_REST * problem.tolerance, solvers={})
+    omegas = sqrt(problem.tank.gravity / length) * np.array(_SLOW if deep else _SLOW_OVER_A_BED)
     attempt = _swept(problem, omegas, shapes)
-    first, second = (
-        _row(omega, found, attempt.error, True)
-        for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)
+    first, second, third = (
+        _row(omega, found, attempt.error, flux_errors, True)
+        for omega, found, flux_errors in zip(
+            omegas, attempt.result.swept.solutions, attempt.result.flux_errors, strict=True
+        )
     )
-    slower, slow = first.added_mass, second.added_mass
-    sizes = np.sqrt(np.abs(np.diag(slow)))
-    grows = np.abs(slower - slow) > _GROWS * np.outer(sizes, sizes)
+    masses = first.added_mass
+    sizes = np.sqrt(np.abs(np.diag(masses)))
+    sizes = np.outer(sizes, sizes)
+    grows = np.abs(masses - second.added_mass) > _GROWS * sizes if deep else np.zeros(masses.shape, dtype=bool)
+    limit, further = (
+        one.added_mass - (other.added_mass - one.added_mass) / ((omegas[1] / omegas[0]) ** 2 - 1.0)
+        for one, other in ((first, second), (second, third))
+    )
+    # The second one has nine times the error of the first, or 81 times without logarithms.
+    remaining = np.abs(further - limit) / (8.0 if deep else 80.0)
+    # Of a alone, where a is but a part of a + ib/ω.
+    whole = np.abs(masses + 1j * first.radiation_damping / omegas[0])
+    share = float(np.max(np.diag(whole) / np.diag(sizes), initial=1.0, where=~np.diag(grows)))
     return replace(
         first,
         omega=0.0,
-        relative_error=attempt.error + _SLOW[0] ** 2,
+        relative_error=share * attempt.error + float(np.max(remaining / sizes, initial=0.0, where=~grows)),
         wavenumbers=np.zeros(waves),
-        added_mass=np.where(grows, np.copysign(np.inf, slower), slower),
-        # b/ω may have a limit, b is zero.
-        radiation_damping=np.zeros_like(slower),
+        added_mass=np.where(grows, np.copysign(np.inf, masses), limit),
+        radiation_damping_error=np.abs(second.radiation_damping - first.radiation_damping),
+        excitation_force_error=np.abs(
+            second.froude_krylov_force + second.diffraction_force - first.froude_krylov_force - first.diffraction_force
+        ),
+    )
+
+
+def _in_longest_waves(tank: Tank, row: _Row, forces: np.ndarray) -> _Row:
+    """Return the row of ω = 0 in one liquid with its forces, shape (m,), of a level that rises evenly.
+
+    Sections over a bed have b = Σ XⱼX̄ₖ/(4ρg c) of both directions then, with c = √(gH); all others have none.
+    """
+    (layer,) = tank.layers
+    damping = np.zeros_like(row.added_mass)
+    if isfinite(layer.depth) and not tank.geometry.is_revolved:
+        damping = np.outer(forces, forces) / (2.0 * layer.density * tank.gravity * sqrt(tank.gravity * layer.depth))
+    static = np.broadcast_to(forces.astype(complex), row.froude_krylov_force.shape)
+    return replace(
+        row,
+        radiation_damping=damping,
+        radiation_damping_error=np.zeros_like(damping),
+        froude_krylov_force=static,
+        diffraction_force=np.zeros_like(static),
+        excitation_force_error=np.zeros(static.shape),
     )

@@ -36,9 +36,7 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
     away, tips = (0.5 * energy / powers for energy in model.summed_over_cells(solution.missed))
     away += solution.reflected * solution.scattered_powers / powers
     moved = _reported_motions(model)
-    sizes = np.maximum(
-        np.abs(moved @ solution.motions.T).max(axis=0, initial=0.0), 1.0 / np.abs(solution.per_elevation(RIGHTWARD))
-    )
+    sizes = _sizes(solution, moved)
     dual = dual_motions(solution, moved)
     own = functional_errors(solution, dual)
     omitted = np.full(count, truncation(solution))
@@ -58,6 +56,21 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
         truncation=omitted,
         rounding=np.full(count, _rounding(model)),
     )
+
+
+def _sizes(solution: OpenResponse, moved: np.ndarray) -> np.ndarray:
+    """The largest motion in each incident wave, or its elevation where that is larger, shape (incident,)."""
+    elevations = 1.0 / np.abs(solution.per_elevation(RIGHTWARD))
+    sizes: np.ndarray = np.maximum(np.abs(moved @ solution.motions.T).max(axis=0, initial=0.0), elevations)
+    return sizes
+
+
+def motion_errors(solution: OpenResponse, error: float) -> np.ndarray:
+    """Return the errors of all motions per unit elevation by that relative to the largest, see `response_errors`, in SI
+    units, shape (incident, motions)."""
+    model = solution.model
+    largest = _sizes(solution, _reported_motions(model)) * np.abs(solution.per_elevation(RIGHTWARD))
+    return model.scale.amplitudes(error * np.outer(largest, np.ones(len(model.mass))), errors=True)
 
 
 def unmeshed_error(model: OpenModel) -> float:

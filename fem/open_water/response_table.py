@@ -12,6 +12,7 @@ from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.requests import ResponseRequest
+from hydroelastic.fem.open_water.response_errors import motion_errors
 from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, RoundDeflection
 from hydroelastic.fem.open_water.round_plates import deflections_of_order, radii_along
 from hydroelastic.physics.attachments import REGULAR
@@ -60,6 +61,7 @@ def response_table(
         dofs=model.scale.dofs,
         waves_from=request.waves_from,
         amplitudes=model.scale.amplitudes(motions),
+        amplitude_error=np.array([motion_errors(*pair) for pair in zip(solutions, errors.total, strict=True)]),
         reflection=None if is_round else waves[:, :, back],
         transmission=None if is_round else waves[:, :, forward],
         partial_waves=np.array([one.partial_waves() for one in solutions])[..., None] if is_round else None,

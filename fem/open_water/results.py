@@ -37,13 +37,18 @@ class RadiationTable:
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
         added_mass: (n, m, m) a, kg/m, kg, kg m; entry (i, j) is the force in i by motion in j.
-        radiation_damping: (n, m, m) b, kg/(m s), kg/s, kg m/s; the force is −(−ω² a − iω b) ζ.
+        radiation_damping: (n, m, m) b, kg/(m s), kg/s, kg m/s; the force is −(−ω² a − iω b) ζ. By the power of the
+            radiated waves.
+        radiation_damping_error: (n, m, m) its estimated error, in the same units.
         excitation_force: (n, w, 2, m) N/m², moments N/m, per metre of elevation e^{i(±kx − ωt)}, in the directions of
             `DIRECTIONS`.
+        excitation_force_error: (n, w, 2, m) its estimated error, in the same units.
         froude_krylov_force: (n, w, 2, m) the part of the incident wave.
         diffraction_force: (n, w, 2, m) the part of the scattered waves.
-        relative_error: (n,) estimated relative error of a + ib/ω.
-        energy_residual: (n,) relative difference of b and the power of the radiated waves.
+        relative_error: (n,) estimated error of a, of each motion relative to its own |a + ib/ω|, at ω = 0 to |a|; the
+            largest.
+        energy_residual: (n,) difference of b by the pressure on the bodies and by the power of the radiated waves, over
+            ω|a + ib/ω|.
         haskind_residual: (n,) relative difference of the excitation and Haskind's formula with the radiated waves.
         inertia: (m, m) of the bodies, kg/m, kg, kg m.
         stiffness: (m, m) of the bodies and hydrostatics, N/m², N/m, N.
@@ -58,7 +63,9 @@ class RadiationTable:
     wavenumbers: Floats
     added_mass: Floats
     radiation_damping: Floats
+    radiation_damping_error: Floats
     excitation_force: Complexes
+    excitation_force_error: Floats
     froude_krylov_force: Complexes
     diffraction_force: Complexes
     relative_error: Floats
@@ -172,6 +179,7 @@ class ResponseTable:
         dofs: m degrees of freedom.
         waves_from: the side from which the waves are incident.
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
+        amplitude_error: (n, w, m) their estimated errors, by that of the largest motion, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of 1/k of
@@ -179,7 +187,8 @@ class ResponseTable:
         drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
         drift_error: (n, w) its estimated error, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
-        relative_error: (n,) estimated relative error of the amplitudes.
+        relative_error: (n,) estimated error of motions and waves, relative to the elevation of the incident wave, or to
+            the largest motion where that is larger.
         plates: one for each beam and each round plate.
         round_plates: one for each round plate.
         hulls: one for each float, if pressures were requested.
@@ -198,6 +207,7 @@ class ResponseTable:
     dofs: tuple[Dof, ...]
     waves_from: Literal["left", "right"]
     amplitudes: Complexes
+    amplitude_error: Floats
     reflection: Complexes | None
     transmission: Complexes | None
     absorption: Floats

@@ -61,7 +61,7 @@ def _rows(tank: Tank, table: RadiationTable) -> Iterator[Comparison]:
         surge = table.dofs.index("surge")
         yield compared(
             f"a of surge by strips, at {table.omega[slow]:.4g} rad/s, kg",
-            body.hydrostatics.mass,
+            body.hydrostatics.displaced_mass,
             table.added_mass[slow, surge, surge],
         )
         if _is_upright(body, layer.density):
@@ -126,4 +126,4 @@ def _standing(
 def _is_upright(body: RigidFloat, density: float) -> bool:
     """Whether a solid that the axis passes through is an upright cylinder."""
     volume = pi * body.waterplane[1] ** 2 * -body.hull.bounds[2]
-    return abs(body.hydrostatics.mass / (density * volume) - 1.0) < _ALIKE
+    return abs(body.hydrostatics.displaced_mass / (density * volume) - 1.0) < _ALIKE

@@ -134,7 +134,7 @@ class OpenSolver:
             incidence=waves,
             hydrodynamic=products(self._loads, radiated),
             diffraction=products(diffracted, self._loads),
-            potentials=lambda: radiated,
+            potentials=lambda: (radiated, diffracted),
         )
 
     def _at(self, omega: float) -> tuple[np.ndarray, np.ndarray]:
@@ -172,7 +172,7 @@ class OpenSolver:
             incidence=waves,
             hydrodynamic=coupling @ found[:count].T,
             diffraction=found[count:] @ coupling.T,
-            potentials=lambda: lift(found[:count]),
+            potentials=lambda: (lift(found[:count]), lift(found[count:])),
         ), float(residual)
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:

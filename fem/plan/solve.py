@@ -18,7 +18,7 @@ from hydroelastic.fem.level_bed.solution import (
     shortcomings,
 )
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.level_tank import Box, FilePlan, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
 
 if TYPE_CHECKING:
@@ -124,10 +124,11 @@ def solve_smallest_model(
         report("first elastic tones of the plates")
         with watch.stage("elastic tone"):
             found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
+    measures = f"; {physical.plan.measures}" if isinstance(physical.plan, FilePlan) else ""
     solution = LevelSolution(
         physical=physical,
         tank=tank,
-        model=MODEL_WORDS[model] + getattr(found, "remark", ""),
+        model=MODEL_WORDS[model] + getattr(found, "remark", "") + measures,
         tolerance=tolerance,
         count=modes,
         modes=tuple(

@@ -138,7 +138,7 @@ def check_mesh(tank: Tank, tagged: TaggedMesh) -> None:
     if np.abs(np.concatenate([low, high]) - expected).max() > _MESH_ROUNDING:
         raise MeshError(
             f"the mesh fills {low[0]:g} < x/L < {high[0]:g}, {low[1]:g} < y/L < {high[1]:g}; "
-            f"the scene's liquid fills 0 < x/L < 1, {-tank.depth:g} < y/L < 0"
+            f"the scene's liquid fills 0 < x/L < 1, {-tank.depth:g} < y/L < 0; its lengths are taken in metres"
         )
     _check_nodes(tank, tagged)
     pieces = {name: [piece for piece in geometry.segments if piece.name == name] for name in names}

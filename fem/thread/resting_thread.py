@@ -30,6 +30,7 @@ class RestingThread:
         largest_tension: of the whole thread, N.
         smallest_tension: of the whole thread, N.
         smallest_at: where that is, m along the thread.
+        lowest_height: z of the lowest point of the whole thread, m.
         position_error: estimated, of all positions, m.
         tension_error: estimated, of all tensions, N.
         reaction_error: estimated, of reactions, N.
@@ -51,6 +52,7 @@ class RestingThread:
     largest_tension: float
     smallest_tension: float
     smallest_at: float
+    lowest_height: float
     position_error: float
     tension_error: float
     reaction_error: float
@@ -84,6 +86,7 @@ def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingTh
         largest_tension=float(np.max(profile.tension)),
         smallest_tension=smallest,
         smallest_at=place,
+        lowest_height=float(np.min(frame.positions_in_space(profile.position(_finely(profile)))[:, 2])),
         position_error=errors.position,
         tension_error=errors.tension,
         reaction_error=errors.reaction,
@@ -93,6 +96,11 @@ def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingTh
         newton_steps=found.solution.newton_steps,
         failed_starts=found.failed,
     )
+
+
+def _finely(profile: ThreadProfile) -> Array:
+    """Arc lengths between which a thread is a parabola, for all that is drawn or told of it."""
+    return np.linspace(profile.nodes[0], profile.nodes[-1], 1001)
 
 
 def _curvatures(profile: ThreadProfile, s: Array) -> Array:

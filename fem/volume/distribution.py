@@ -12,14 +12,14 @@ from mpi4py import MPI
 from hydroelastic.fem.cells import owned_cells
 from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
-from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.refinement import refined_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integral, mesh_volume, smallest_jacobians
 from hydroelastic.meshes.volume import VolumeSizes, depth_over, volume_mesh
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
 
-# Largest multiple of cells around curved walls, where they are inverted.
+# Largest multiple of cells around curved walls where they are inverted, and of all where gmsh fails.
 _MOST_AROUND = 3
 # Most cells around a curved wall that are tried where they are inverted by a refinement.
 _MOST_COARSE = 48
@@ -57,8 +57,10 @@ def distributed_volume(
     if comm.bcast(isinstance(made, MeshError)):
         raise comm.bcast(made)
     whole = made if isinstance(made, VolumeMesh) else None
-    volume, surfaces, curved, meshed = comm.bcast(
-        None if whole is None else (whole.volume, whole.surfaces, whole.curved, mesh_volume(whole.noded))
+    volume, surfaces, curved, meshed, straightened = comm.bcast(
+        None
+        if whole is None
+        else (whole.volume, whole.surfaces, whole.curved, mesh_volume(whole.noded), whole.straightened)
     )
     mesh = distribute_nodes(comm, None if whole is None else whole.noded)
     if surfaces:
@@ -70,23 +72,32 @@ def distributed_volume(
             if sizes.coarse.around > _MOST_COARSE:
                 raise
             return distributed_volume(tank, replace(sizes, around=2 * sizes.around), mirrors, comm, require)
-    return mesh, _GEOMETRY * abs(meshed / volume - 1.0)
+    # What cells lose that are straightened is lost where the wall is curved most: the added mass of a float feels it.
+    displaced = [solid.hydrostatics.volume / image_count(mirrors) for solid in tank.floats]
+    return mesh, _GEOMETRY * (abs(meshed / volume - 1.0) + straightened / min([volume, *displaced]))
 
 
 def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:
-    """A mesh with more cells around curved walls where they would be inverted."""
+    """A mesh with more cells around curved walls where they would be inverted, and with smaller ones everywhere where
+    gmsh fails: large ones beside the thin rim of a hull, whose sides then cross."""
+    failure: MeshError | None = None
     for more in range(1, _MOST_AROUND + 1):
+        refined = replace(sizes, around=more * sizes.around)
+        if failure is not None and not isinstance(failure, FoldedError):
+            refined = replace(refined, edge=sizes.edge / more, bulk=sizes.bulk / more)
         try:
-            return volume_mesh(tank, replace(sizes, around=more * sizes.around), mirrors)
-        except FoldedError as error:
-            if more == _MOST_AROUND:
-                if isinstance(tank.bed, SurveyedBed):
-                    raise MisplacedError(
-                        "the smooth bed through the points is too steep between them, or rises to the still level: "
-                        "cells over it are inverted"
-                    ) from error
-                raise
-    raise AssertionError
+            return volume_mesh(tank, refined, mirrors)
+        except MisplacedError:
+            raise
+        except MeshError as error:
+            failure = failure or error
+    if isinstance(failure, FoldedError) and isinstance(tank.bed, SurveyedBed):
+        raise MisplacedError(
+            "the smooth bed through the points is too steep between them, or rises to the still level: "
+            "cells over it are inverted"
+        ) from failure
+    assert failure is not None
+    raise failure
 
 
 def _shaped(tank: VolumeTank, mesh: Mesh, volume: float) -> tuple[float, float]:

@@ -30,6 +30,7 @@ from hydroelastic.fem.plan.classes import (
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.truncation import plate_errors
+from hydroelastic.fem.solver_error import TooLargeError
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
@@ -58,7 +59,7 @@ _MOST_ATTEMPTS = 5
 # plates in boxes and cylinders, a baffle on a bed, and floating cylinders. By the decay of the energy with the
 # degree 0.36 to 0.57 of the error is shown at edges, all of it at corners; by what the third degree adds to the second
 # one, which has no tips, 0.8, 0.62, and 0.95 of waves.
-_DECAY = (3.0, 1.8, 1.3, 1.8)
+_DECAY = (3.0, 1.8, 2.4, 1.8)
 _CUBIC = (1.5, 1.9, 1.9, 1.2)
 # Cells up to this multiple of the size at edges belong to them.
 _AT_EDGES = 4.0
@@ -67,10 +68,6 @@ _ROUNDING = 1e-11
 _INNER = 1e-2
 # Tolerance for which Laplace's equation is solved in the coarser space that modes are sought in first.
 _COARSE = 1e-4
-
-
-class TooLargeError(MeshError):
-    """The problem would not fit into memory."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -250,7 +247,7 @@ def _solve(
         lambda _, solution: _refined(solution, count, tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
-        failures=(TooLargeError,),
+        failures=(MeshError,),
     ).solution
 
 

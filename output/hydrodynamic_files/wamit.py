@@ -62,7 +62,7 @@ def _radiation(bodies: WholeBodies) -> Iterator[str]:
         if limit is None:
             continue
         for i, j in _entries(bodies):
-            # Added mass in heave is infinite for very long waves in deep water.
+            # Added mass of what displaces a volume may be infinite for very long waves: such entries are left out.
             if np.isfinite(limit[i, j]):
                 yield f"{_number(period)}{i + 1:6d}{j + 1:6d}{_number(limit[i, j] / bodies.density)}"
     for omega, mass, damping in zip(bodies.omega, bodies.added_mass, bodies.radiation_damping, strict=True):

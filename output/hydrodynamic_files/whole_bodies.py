@@ -88,7 +88,7 @@ class WholeBodies:
         omega: (n,) rad/s, ascending, positive and finite.
         added_mass: (n, m, m) force by motion.
         radiation_damping: (n, m, m).
-        limits: added mass at ω = 0 and at ω = ∞, each (m, m) or ``None``.
+        limits: added mass at ω = 0, whose entries may be infinite, and at ω = ∞, each (m, m) or ``None``.
         directions: (d,) in which waves travel, degrees.
         froude_krylov_force: (n, d, m) per unit elevation.
         diffraction_force: (n, d, m).
@@ -175,7 +175,12 @@ def bodies_of_tables(
 
     def limit(omega: float) -> Floats | None:
         table, row = rows.get(omega, (None, 0))
-        return None if table is None else matrix(table.added_mass[row])
+        if table is None:
+            return None
+        # Infinite entries times zero would be no numbers.
+        masses, grows = table.added_mass[row], np.isinf(table.added_mass[row])
+        reached = sum(np.abs(plane).T @ grows @ np.abs(plane) for plane in planes) > 0.0
+        return np.where(reached, np.inf, matrix(np.where(grows, 0.0, masses)))
 
     first = impulse_response[0] if impulse_response else None
     far = limit(np.inf)

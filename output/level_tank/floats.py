@@ -130,4 +130,17 @@ def floats_section(floats: Sequence[FloatAtRest]) -> Iterator[Section]:
             title="Bodies at rest",
             headings=("quantity", *(f"{one[SHAPE]} {one[NUMBER]}" for one in found)),
             rows=[(part.label, *(one.cell(part) for one in found)) for part in FLOATS.quantities[2:]],
+            lines=tuple(_ledges(floats)),
         )
+
+
+def _ledges(floats: Sequence[FloatAtRest]) -> Iterator[str]:
+    """Say which waterplane is taken where a hull has two at the still level."""
+    for one in floats:
+        above = one.solid.hull.waterplane_above if one.solid.hull else None
+        if above is not None:
+            yield (
+                f"Attention: horizontal faces of {one.shape} {one.number} lie exactly at the still level. The "
+                f"waterplane just below them is taken, of {one.waterplane_area:.6g} m²; just above them it is "
+                f"{above:.6g} m². Change the draught a little to choose between both."
+            )

@@ -106,7 +106,7 @@ def _float(tank: Tank, index: int) -> BodyAtRest:
         centre_of_gravity=above_level(rest.centre_of_mass),
         centre_of_buoyancy=above_level(rest.centroids[0]),
         radius_of_gyration=rest.radius_of_gyration,
-        metacentric_height=placed.roll_stiffness / (rest.mass * tank.gravity),
+        metacentric_height=placed.roll_stiffness / (rest.displaced_mass * tank.gravity),
         heave_stiffness=rest.heave_stiffness,
         roll_stiffness=placed.roll_stiffness,
     )

@@ -38,8 +38,9 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
         variable="spectrum_transfer_function", column="", phase=CREST),
     own_array("response_density", "spectrum of a response, in the square of its unit times s/rad", _CURVE,
         lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
-    own_array("relative_error", "estimated relative error of the transfer functions", "spectrum_omega",
-        lambda it: it.relative_error, unit="1", variable="spectrum_relative_error", column="relative_error"),
+    own_array("relative_error", "estimated error of the transfer functions, relative to the incident wave, or to the "
+        "largest motion where that is larger", "spectrum_omega", lambda it: it.relative_error, unit="1",
+        variable="spectrum_relative_error", column="relative_error"),
     RESPONSES := Group("responses", "statistics of each response, in its unit", (
         QUANTITY := Quantity("quantity", "response"),
         UNIT := Quantity("unit", "its unit", short="unit"),

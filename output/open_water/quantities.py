@@ -33,9 +33,10 @@ from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
 
 _INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
-_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": CREST}
+_DAMPING: dict[str, Any] = {"unit": "kg/(m s)", "of_roll": ("kg/s", "kg m/s")}
+_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",)}
 _MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
-_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": CREST}
+_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,14 +130,12 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
 
     The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ikx_b} at the middle of the
     waterplane, x_b from there: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger
-    than its error, which is relative to the largest of the displacements, or of the rotations.
+    than its error.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
     towards = 1.0 if table.waves_from == "left" else -1.0
     at_body = table.amplitudes * np.exp(-1j * towards * table.wavenumbers[:, :, None] * centres)
-    turns = np.array([dof.is_rotation for dof in table.dofs], dtype=bool)
-    sizes = np.where(turns[:, None] == turns, np.abs(table.amplitudes)[:, :, None, :], 0.0)
-    is_known = np.abs(table.amplitudes) > table.relative_error[:, None, None] * sizes.max(axis=-1, initial=0.0)
+    is_known = np.abs(table.amplitudes) > table.amplitude_error
     # No negative zero.
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
 
@@ -148,6 +147,16 @@ def scattering_width(table: ResponseTable) -> Floats | None:
     sizes = np.abs(table.partial_waves[:, :, 0]) ** 2
     factors = np.where(np.arange(sizes.shape[-1]) == 0, 1.0, 2.0)
     return np.asarray(4.0 / table.wavenumbers * (sizes @ factors))
+
+
+def scattering_width_error(table: ResponseTable) -> Floats | None:
+    """Return the error of σ where each aₙ has the error that is relative to the incident wave, m."""
+    if table.partial_waves is None or len(table.waves) > 1:
+        return None
+    error = table.relative_error[:, None]
+    changes = 2.0 * error * np.abs(table.partial_waves[:, 0, 0]) + error**2
+    factors = np.where(np.arange(changes.shape[-1]) == 0, 1.0, 2.0)
+    return np.asarray(4.0 / table.wavenumbers * (changes @ factors)[:, None])
 
 
 def directional_scattering(table: ResponseTable, angles: Floats) -> Floats | None:
@@ -204,18 +213,26 @@ RADIATION = Group("radiation", "radiated and incident waves, by analysis; matric
     joined_array("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
         value=lambda _: DIRECTIONS, printed=False),
     joined_array("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
-    RADIATION_DAMPING := joined_array("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)",
-        of_roll=("kg/s", "kg m/s"), symbol="b", error="relative_error"),
-    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
-        error="relative_error", **_FORCE),
+    RADIATION_DAMPING := joined_array("radiation_damping", "radiation damping", *_MATRIX, symbol="b",
+        error="radiation_damping_error", note="by the power of the radiated waves", **_DAMPING),
+    joined_array("radiation_damping_error", "estimated error of the radiation damping", *_MATRIX, short="± b",
+        shown=".1e", note="of each entry by itself", **_DAMPING),
+    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|", phase=CREST,
+        error="excitation_force_error", **_FORCE),
+    joined_array("excitation_force_error", "estimated error of the excitation force per unit elevation", _FORCES,
+        printed=False, note="of each force by itself", **_FORCE),
     joined_array("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
-        variable="Froude_Krylov_force", printed=False, **_FORCE),
+        variable="Froude_Krylov_force", printed=False, phase=CREST, **_FORCE),
     joined_array("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
-        **_FORCE),
-    RADIATION_ERROR := joined_array("relative_error", "estimated relative error of added mass and damping", "omega",
-        unit="1", short="relative error", shown=".1e", variable="radiation_relative_error"),
-    joined_array("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
-        printed=False, variable="radiation_energy_residual"),
+        phase=CREST, **_FORCE),
+    RADIATION_ERROR := joined_array("relative_error",
+        "estimated error of the added mass, of each motion relative to the magnitude of a + ib/ω of that motion alone",
+        "omega", unit="1", short="error/|H|", shown=".1e", variable="radiation_relative_error",
+        note="the largest of all motions; at ω = 0 relative to a. Coupling terms, and motions beside others "
+            "that move far more water, may be wrong by more of themselves"),
+    joined_array("energy_residual",
+        "difference of damping by pressure and by the radiated power, relative to ω times the magnitude of a + ib/ω",
+        "omega", unit="1", printed=False, variable="radiation_energy_residual"),
     joined_array("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
         "omega", unit="1", printed=False),
     joined_array("inertia", "inertia of the bodies", OF_BODIES, variable="inertia_matrix", **_INERTIA),
@@ -273,15 +290,23 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         *_RATIOS, unit="1", symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=CREST,
         note="`null` of solids of revolution"),
     AMPLITUDES := joined_array("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES,
-        error="relative_error", variable="RAO", column="", **_PER_ELEVATION),
+        error="amplitude_error", variable="RAO", column="", phase=CREST, **_PER_ELEVATION),
+    AMPLITUDE_ERROR := joined_array("amplitude_error", "estimated error of the motion per unit elevation",
+        *_AMPLITUDES, variable="RAO_error", printed=False, note="by `relative_error`, of the largest motion",
+        **_PER_ELEVATION),
     joined_array("partial_waves",
         "a_n of the elevation eps_n i^n [J_n(kr) + a_n H_n(kr)] cos(n theta) of each azimuthal order n",
         "omega wave outgoing_wave azimuthal_order", "omega wave_direction wave outgoing_wave azimuthal_order", unit="1",
-        printed=False, column="partial_wave", note="about the axis of solids of revolution; `null` of sections"),
+        printed=False, column="partial_wave",
+        note="about the axis of solids of revolution; `null` of sections; their error is `relative_error`, whatever "
+            "their size"),
     SCATTERING_WIDTH := joined_array("scattering_width",
         "power of the scattered waves over that of the incident wave per metre of crest", "omega wave",
-        "omega wave_direction wave", unit="m", symbol="σ", error="relative_error", value=scattering_width,
+        "omega wave_direction wave", unit="m", symbol="σ", error="scattering_width_error", value=scattering_width,
         note="of solids of revolution, in waves on one level; `null` of sections"),
+    SCATTERING_WIDTH_ERROR := joined_array("scattering_width_error", "estimated error of the scattering width",
+        "omega wave", "omega wave_direction wave", unit="m", printed=False, value=scattering_width_error,
+        note="by `relative_error` of each partial wave"),
     own_array("scattering_angle", "angle from the direction in which the incident waves travel", "scattering_angle",
         lambda it: None if it.partial_waves is None else SCATTERING_ANGLES, unit="rad", note="`null` of sections"),
     own_array("directional_scattering", "scattering width per angle", "omega wave scattering_angle",
@@ -315,8 +340,11 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     ENERGY_RESIDUAL := joined_array("energy_residual",
         "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
-    RESPONSE_ERROR := joined_array("relative_error", "estimated relative error of the motions", "omega",
-        "omega wave_direction", unit="1", short="error/largest", shown=".1e", variable="response_relative_error"),
+    RESPONSE_ERROR := joined_array("relative_error",
+        "estimated error of motions and waves, relative to the incident wave, or to the largest motion where that is "
+        "larger", "omega", "omega wave_direction", unit="1", short="error/largest", shown=".1e",
+        variable="response_relative_error", note="smaller motions, rotations and partial waves may have a larger error "
+            "relative to themselves"),
     PLATES,
     HULLS,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (

@@ -7,6 +7,8 @@ from functools import partial
 from math import pi
 from typing import Any
 
+import numpy as np
+
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import (
     DecayTable,
@@ -126,20 +128,27 @@ def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
     shown, thinned = shown_rows(len(table.omega), "frequencies", "radiation.csv")
     worst = f"Largest residuals: energy {largest(table.energy_residual)}, Haskind {largest(table.haskind_residual)}."
     further = (
+        "The last column is the error of a over |H|, the magnitude of a + ib/ω of the motion; ± b is the error of b.",
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
     )
     left_out = water.WAVENUMBERS.key if several else ""
-    found = (column for column in open_columns(group, table) if column.quantity.printed)
-    printed = [column for column in found if column.quantity.key != left_out]
+    found = [column for column in open_columns(group, table) if column.quantity.key != left_out]
     for place, motion in enumerate(table.dofs):
         own = {"influenced_dof": place, "radiating_dof": place, "wave_direction": 0}
-        columns = [column for column in printed if all(own.get(name, at) == at for name, at in column.places.items())]
+        columns = [column for column in found if all(own.get(name, at) == at for name, at in column.places.items())]
+        printed = [column for column in columns if column.quantity.printed]
+        damping, error = table.radiation_damping[:, place, place], table.radiation_damping_error[:, place, place]
+        hidden = np.count_nonzero((damping <= error) & (error > 0.0))
         yield Section(
             title=f"Radiation by {motion.words}",
-            headings=headings_of(columns, "wave" if several else ""),
-            rows=rows_of(group, columns, shown),
-            lines=(*thinned, *(further if place == len(table.dofs) - 1 else ())),
+            headings=headings_of(printed, "wave" if several else ""),
+            rows=rows_of(group, printed, shown, columns),
+            lines=(
+                *thinned,
+                *((f"NOT RESOLVED: b is not larger than its error at {hidden} frequencies.",) if hidden else ()),
+                *(further if place == len(table.dofs) - 1 else ()),
+            ),
         )
 
 
@@ -161,18 +170,23 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(group, ratios, rows, of(water.DRIFT_ERROR)),
-        lines=thinned,
+        rows=rows_of(group, ratios, rows, of(water.DRIFT_ERROR, water.SCATTERING_WIDTH_ERROR)),
+        lines=(
+            *thinned,
+            "The last column is the error of motions and waves over the incident or the largest one.",
+        ),
     )
     motions, phases = of(water.AMPLITUDES)[:_MOST_MOTIONS], of(water.PHASE_AT_BODY)[:_MOST_MOTIONS]
-    shown_parts = (first, [*motions, *of(water.RESPONSE_ERROR)], phases)
+    shown_parts = (first, motions, phases)
     left_out = len(table.dofs) - len(motions)
     yield Section(
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
         headings=headings_of([*first, *motions], "radiating_dof"),
         rows=[
-            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
-            for begin, sizes, angles in zip(*(rows_of(group, part, rows) for part in shown_parts), strict=True)
+            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=True)))
+            for begin, sizes, angles in zip(
+                *(rows_of(group, part, rows, of(water.AMPLITUDE_ERROR)) for part in shown_parts), strict=True
+            )
         ],
         lines=(
             "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",

@@ -13,6 +13,7 @@ from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank
 from hydroelastic.physics.obstacles import VerticalBaffle
 from hydroelastic.physics.plate import Disc
 from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
+from hydroelastic.scenes.errors import cannot_be_meshed
 from hydroelastic.scenes.level_tank.solve import misplacements, require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
@@ -31,7 +32,7 @@ def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
         scene: a validated scene; nothing is solved.
 
     Raises:
-        SceneError: if no solver takes it, or its parts do not fit together.
+        SceneError: if no solver takes it, or its parts do not fit together or cannot be meshed.
     """
     require_treated(scene)
     tank = physical_level_tank(scene)
@@ -62,7 +63,7 @@ def _boundaries(tank: LevelTank) -> Iterator[Row]:
         if plan.inner_radius:
             yield f"inner wall of radius {plan.inner_radius:g} m", "ψ_r = 0"
     elif isinstance(plan, FilePlan):
-        yield f"walls and bed of {plan.file.name}, {tank.depth:g} m deep", "ψ_n = 0"
+        yield f"walls and bed of {plan.file.name}, {plan.measures}", "ψ_n = 0"
     else:
         yield f"{len(plan.points)} walls around the plan", "ψ_n = 0"
     if isinstance(bed, SlopingBed):
@@ -190,8 +191,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
         with misplacements():
             made = unfolded_volume(tank, sizes, mirrors)
     except MeshError as error:
-        yield f"The volume cannot be meshed: {error}."
-        return
+        raise cannot_be_meshed(error) from error
     refinements = sizes.refinements if made.surfaces else 0
     unknowns = unknown_count(made.noded, resolution.degree, refinements)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"

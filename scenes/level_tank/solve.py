@@ -14,7 +14,7 @@ from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.modal.plate.estimates import plate_estimates
 from hydroelastic.output.level_tank.floats import FloatAtRest, floats_at_rest
 from hydroelastic.physics.volume_tank import VolumeTank
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
@@ -60,12 +60,13 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     """Solve a tank in three dimensions and estimate it (collective).
 
     Raises:
-        SceneError: if no solver takes its plan and plates, its parts do not fit together, or nothing oscillates.
-        UnsolvedError: if the eigen-solver fails.
+        SceneError: if no solver takes its plan and plates, its parts do not fit together or cannot be meshed, or
+            nothing oscillates.
+        UnsolvedError: if the eigen-solver fails, or memory is too small.
     """
     require_treated(scene)
     from hydroelastic.fem.plan.solve import solve_smallest_model
-    from hydroelastic.fem.solver_error import EigenSolverError
+    from hydroelastic.fem.solver_error import EigenSolverError, TooLargeError
     from hydroelastic.meshes.tagged_mesh import MeshError
 
     physical = physical_level_tank(scene)
@@ -81,8 +82,10 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
             solution = solve_smallest_model(
                 physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
             )
-    except (EigenSolverError, MeshError) as error:
+    except (EigenSolverError, TooLargeError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
     if not solution.modes:
         wrong = "nothing oscillates: no water is free, and no plate can move against a restoring force"
         raise SceneError(Problem(key="[[body]]", wrong=wrong, remedy="Leave a part of the top free"), file=None)

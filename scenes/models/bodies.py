@@ -240,6 +240,11 @@ class Float(SceneModel):
     draught: PositiveNumber | None = Field(
         default=None, description="depth of its lowest point below the still level, m; instead of mass, or beside it"
     )
+    vertical_force: AnyNumber | None = Field(
+        default=None,
+        description="constant vertical force of moorings on the body, upwards positive, N/m, at its centre of mass: "
+        "the weight is that of the displaced liquid and this force; by default none",
+    )
     centre_of_mass: AnyNumber | None = Field(
         default=None,
         description="height of the centre of mass above the reference level, m; by default that of the area",
@@ -282,8 +287,8 @@ class Float(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize a float without the keys that may stand in place of others, unless they are given."""
-        return {key: value for key, value in write(self).items() if key not in SUBSTITUTES or value is not None}
+        """Serialize a float without the keys that most lack, unless they are given."""
+        return {key: value for key, value in write(self).items() if key not in LEFT_OUT or value is not None}
 
     @model_validator(mode="after")
     def _keys_fit(self) -> Float:
@@ -295,6 +300,9 @@ class Float(SceneModel):
 
 SUBSTITUTES = {"draught": "mass", "vertical_centre_of_gravity": "centre_of_mass", "inertia": "radius_of_gyration"}
 """Keys of a float at rest, each with the one in whose place it may stand."""
+
+LEFT_OUT = (*SUBSTITUTES, "vertical_force")
+"""Keys that are written only where they are given."""
 
 _PROFILE = ("half_width", "half_height")
 NEEDED_KEYS: dict[Shape, tuple[str, ...]] = {

@@ -74,10 +74,21 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
     yield from _sizes_fit(scene, index, body, contour)
     densities = scene.densities_at(scene.level_of(body))
     try:
-        level = level_at_rest(body, contour, densities)
+        level = level_at_rest(body, contour, densities, scene.tank.gravity)
     except ValueError:
-        yield _floats_elsewhere(scene, index, body, contour.moments().area)
+        yield _floats_elsewhere(scene, index, body, contour)
         return
+    force = body.vertical_force or 0.0
+    if body.mass is None and force < 0.0:
+        displaced = _displaced(contour, level, densities)
+        if displaced * scene.tank.gravity + force <= 0.0:
+            yield problem_at(
+                ("body", index, "vertical_force"),
+                force,
+                "it pulls down with more than the weight of the liquid that the float displaces, which leaves no mass",
+                allowed=f"more than {-displaced * scene.tank.gravity:.6g} {_unit_of_force(scene)}",
+            )
+            return
     yield from _parts_on_both_sides(index, body, contour, level)
     try:
         placed = placed_float(scene, index)
@@ -89,7 +100,7 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
             allowed="a section that the still level cuts once, into one part below and one above",
         )
         return
-    yield from _keys_agree(index, body, placed)
+    yield from _keys_agree(index, body, placed, _closing_force(scene, body, contour, densities))
     yield from _has_room(scene, index, body, placed.hull.bounds)
     yield from _arms_fit(index, body, placed.hull.bounds)
 
@@ -158,16 +169,42 @@ def _other_models(body: AnyFloat) -> str:
     return 'boundary = "thin" takes it' if body.boundary == "exact" and body.shape in THIN_SHAPES else ""
 
 
-def _floats_elsewhere(scene: TankParts, index: int, body: AnyFloat, area: float) -> InitErrorDetails:
-    below, above = scene.densities_at(scene.level_of(body))
+def _displaced(contour: Contour | SolidOfRevolution, level: float, densities: tuple[float, float]) -> float:
+    """Mass of the liquids that a float displaces, kg/m, or kg of a solid."""
+    immersed = contour.moments(level).area
+    return densities[0] * immersed + densities[1] * (contour.moments().area - immersed)
+
+
+def _unit_of_force(scene: TankParts) -> str:
+    return "N" if scene.is_revolved else "N/m"
+
+
+def _closing_force(
+    scene: TankParts, body: AnyFloat, contour: Contour | SolidOfRevolution, densities: tuple[float, float]
+) -> str:
+    """The force of moorings that brings a mass to a draught, or nothing where one of both is not given."""
+    if body.mass is None or body.draught is None:
+        return ""
+    displaced = _displaced(contour, contour.bounds[2] + body.draught, densities)
+    force = (body.mass - displaced) * scene.tank.gravity
+    return f", or set vertical_force = {force:.6g} {_unit_of_force(scene)}, that of moorings which hold it so"
+
+
+def _floats_elsewhere(
+    scene: TankParts, index: int, body: AnyFloat, contour: Contour | SolidOfRevolution
+) -> InitErrorDetails:
+    below, above = densities = scene.densities_at(scene.level_of(body))
+    area, held = contour.moments().area, (body.vertical_force or 0.0) / scene.tank.gravity
     size, unit = (f"volume of {area:g} m³", "kg") if scene.is_revolved else (f"section of {area:g} m²", "kg/m")
-    heavy = (body.mass or 0.0) >= below * area
+    heavy = (body.mass or 0.0) - held >= below * area
+    moored = f" and vertical_force = {body.vertical_force:g} {_unit_of_force(scene)}" if body.vertical_force else ""
     return problem_at(
         ("body", index, "mass"),
         body.mass,
-        f"with a {size} it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
-        allowed=f"between {above * area:g} and {below * area:g} {unit} (Archimedes)",
-        remedy="Leave it out for the mass that floats with the reference level at the still level",
+        f"with a {size}{moored} it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
+        allowed=f"between {above * area + held:g} and {below * area + held:g} {unit} (Archimedes)",
+        remedy="Leave it out for the mass that floats with the reference level at the still level"
+        + _closing_force(scene, body, contour, densities),
     )
 
 
@@ -193,8 +230,11 @@ def _parts_on_both_sides(
         )
 
 
-def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat) -> Iterator[InitErrorDetails]:
-    """Yield values at rest that contradict those in whose place they may stand."""
+def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat, closing: str) -> Iterator[InitErrorDetails]:
+    """Yield values at rest that contradict those in whose place they may stand.
+
+    `closing` tells the force that brings mass and draught together.
+    """
     rest, (_, _, low, high) = placed.hydrostatics, placed.hull.bounds
     found = {
         "draught": (rest.level - low, high - low),
@@ -208,7 +248,7 @@ def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat) -> Iterator[Init
                 ("body", index, key),
                 given,
                 f"it contradicts {SUBSTITUTES[key]}, with which it is {value:.6g}",
-                remedy=f"Leave out {key} or {SUBSTITUTES[key]}",
+                remedy=f"Leave out {key} or {SUBSTITUTES[key]}" + (closing if key == "draught" else ""),
             )
 
 

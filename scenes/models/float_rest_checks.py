@@ -13,14 +13,19 @@ from hydroelastic.scenes.models.float_checks import SMALLEST_GAP, Box, extents
 from hydroelastic.scenes.models.problems import problem_at
 
 if TYPE_CHECKING:
+    from hydroelastic.physics.contours import Array
     from hydroelastic.scenes.models.tank_parts import TankParts
+
+# Relative rounding of a number that is printed with six digits.
+_PRINTED = 1e-5
 
 
 def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     boxes = [_box(scene, index, body) for index, body in enumerate(scene.body)]
     for first, second in _neighbours(scene, boxes):
         gap = SMALLEST_GAP * max(max(extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
-        if _nearer_than(gap, boxes[first], boxes[second]):
+        # A gap of exactly the smallest, as it is printed, is one.
+        if _nearer_than(gap, boxes[first], boxes[second]) and _gap(scene, first, second) < gap * (1.0 - _PRINTED):
             left, right, _, _ = boxes[first]
             key = "position" if _is_float(scene, second) else "start"
             yield problem_at(
@@ -61,6 +66,25 @@ def _box(scene: TankParts, index: int, body: AnyBody) -> Box:
     return placed_float(scene, index).hull.bounds
 
 
+def _gap(scene: TankParts, first: int, second: int) -> float:
+    """Least distance of two bodies: one may reach below the other, as a heave plate does."""
+    from hydroelastic.physics.point_contours import gap_between
+
+    return gap_between(_polyline(scene, first), _polyline(scene, second))
+
+
+def _polyline(scene: TankParts, index: int) -> Array:
+    import numpy as np
+
+    from hydroelastic.physics.point_contours import closed_polyline
+    from hydroelastic.scenes.models.floats import placed_float
+
+    if _is_float(scene, index):
+        return closed_polyline(placed_float(scene, index).hull.contour)
+    left, right, height, _ = _box(scene, index, scene.body[index])
+    return np.array([[left, height], [right, height]])
+
+
 def _nearer_than(gap: float, one: Box, other: Box) -> bool:
     """Whether two boxes overlap or come nearer than a gap, in both directions."""
     beside = max(one[0], other[0]) - min(one[1], other[1])
@@ -78,7 +102,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         if not found or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
-        arm = stiffness / (at_rest.mass * scene.tank.gravity)
+        arm = stiffness / (at_rest.displaced_mass * scene.tank.gravity)
         keys = ("centre_of_mass", "vertical_centre_of_gravity")
         given = next((key for key in keys if getattr(body, key) is not None), None)
         above_water = given == keys[1] or keys[0] not in type(body).model_fields

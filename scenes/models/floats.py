@@ -69,20 +69,24 @@ def float_contour(body: AnyFloat, folder: Path) -> Contour | SolidOfRevolution:
     return polygon_contour(body.vertices or ())
 
 
-def level_at_rest(body: AnyFloat, contour: Contour | SolidOfRevolution, densities: tuple[float, float]) -> float:
+def level_at_rest(
+    body: AnyFloat, contour: Contour | SolidOfRevolution, densities: tuple[float, float], gravity: float
+) -> float:
     """Return the ordinate of the still level in a float's frame, m: by its mass, or by its draught without one.
 
     Args:
         body: the float.
         contour: in the float's frame, m.
         densities: below and above the level, kg/m³.
+        gravity: m/s².
 
     Raises:
         ValueError: if its mass is too small or too large to float at the level.
     """
     if body.mass is None and body.draught is not None:
         return contour.bounds[2] + body.draught
-    return still_level(contour, body.mass, densities)
+    displaced = None if body.mass is None else body.mass - (body.vertical_force or 0.0) / gravity
+    return still_level(contour, displaced, densities)
 
 
 def placed_float(scene: TankParts, index: int) -> RigidFloat:
@@ -147,7 +151,7 @@ def _placed(
     _state: tuple[int, int] | None,
 ) -> RigidFloat:
     contour = float_contour(body, folder)
-    immersion = level_at_rest(body, contour, densities)
+    immersion = level_at_rest(body, contour, densities, gravity)
     # Still level and position are the origin while anything is computed: far from it, digits are lost.
     contour = contour.moved((0.0, -immersion))
     centre = body.centre_of_mass
@@ -160,6 +164,7 @@ def _placed(
         gravity=gravity,
         centre_of_mass=centre,
         radius_of_gyration=body.radius_of_gyration,
+        vertical_force=body.vertical_force or 0.0,
     )
     if body.radius_of_gyration is None and body.inertia is not None:
         at_rest = replace(at_rest, radius_of_gyration=sqrt(body.inertia / at_rest.mass))

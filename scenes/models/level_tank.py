@@ -11,14 +11,14 @@ import numpy as np
 from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.meshes.plan_regions import outline_region
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
-from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
+from hydroelastic.physics.plate import Bounds, Disc, Polygon, bounds_of
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.float_checks import contour_is_simple, sides_are_long
 from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
     bed_points,
+    depth_of,
     physical_outline,
     physical_plan,
     shape_file,
@@ -31,6 +31,7 @@ from hydroelastic.scenes.models.volume_checks import (
     columns_lie_in_the_tank,
     floats_lie_in_the_tank,
     liquids_are_layered,
+    outlines_touch,
     shaped_beds_are_simple,
     volumes_are_of_plates,
 )
@@ -38,7 +39,9 @@ from hydroelastic.scenes.models.volume_checks import (
 LEAST_INNER_RADIUS = 1e-3
 """Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
 
-_Bounds: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+_AGREED = 1e-2
+"""Relative difference of the depths of a mesh and a scene that is accepted: a mesh may have no node at the deepest
+point."""
 
 
 class LevelTankScene(LevelTankParts):
@@ -119,6 +122,14 @@ def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _depths_are_given(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    if scene.tank.shape is not None and scene.tank.shape.suffix.lower() == ".msh":
+        return
+    for index, liquid in enumerate(scene.liquid):
+        if liquid.depth is None:
+            yield problem_at(("liquid", index, "depth"), None, "it is missing", allowed="the depth in m")
+
+
 def _polygons_are_simple(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     given = [(("body", index, "points"), body.points) for index, body in enumerate(scene.body) if body.kind == "plate"]
     for location, points in ((("tank", "plan"), scene.tank.plan), *given):
@@ -156,9 +167,19 @@ def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
         from hydroelastic.meshes.tagged_mesh import MeshError
 
         try:
-            physical_plan(scene)
+            plan = physical_plan(scene)
         except MeshError as error:
             yield problem_at(("tank", "shape"), str(tank.shape), str(error))
+            return
+        depth = depth_of(plan, scene)
+        if scene.depth and abs(scene.depth - depth) > _AGREED * depth:
+            yield problem_at(
+                ("liquid", 0, "depth"),
+                scene.depth,
+                f"the liquid in {tank.shape.name} is {depth:g} m deep, as its lengths are taken in metres",
+                allowed=f"{depth:g}, or no depth",
+                remedy="Correct it, or the unit of the mesh",
+            )
 
 
 def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -213,7 +234,8 @@ def _edges_can_be_held(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    unit, depth = physical_plan(scene).unit, scene.depth
+    plan = physical_plan(scene)
+    unit, depth = plan.unit, depth_of(plan, scene)
     least, most = DEPTH_TO_LENGTH
     if not least <= depth / unit <= most:
         yield problem_at(
@@ -230,7 +252,7 @@ def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
     for index, plate in enumerate(scene.plates):
         outline = physical_outline(scene, plate)
         if isinstance(plan, Box):
-            bounds = _bounds(outline)
+            bounds = bounds_of(outline)
             sides = (plan.length, plan.width)
             inside = all(
                 low >= -ROUND_OFF * side and high <= side * reach
@@ -259,7 +281,7 @@ def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     unit = physical_plan(scene).unit
     outlines = [physical_outline(scene, plate) for plate in scene.plates]
     for (first, one), (second, other) in combinations(enumerate(outlines), 2):
-        if _touch(one, other, ROUND_OFF * unit):
+        if outlines_touch(one, other, ROUND_OFF * unit):
             yield problem_at(
                 ("body", second, scene.body[second].shape_key),
                 getattr(scene.body[second], scene.body[second].shape_key),
@@ -268,46 +290,14 @@ def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
-def _plan_bounds(plan: Plan) -> _Bounds:
+def _plan_bounds(plan: Plan) -> Bounds:
     """Least and largest x and y of a plan that is not of a file."""
     if isinstance(plan, Box):
         return (0.0, plan.length), (0.0, plan.width)
     if isinstance(plan, Cylinder):
         return (-plan.radius, plan.radius), (-plan.radius, plan.radius)
     assert isinstance(plan, Polygon)
-    return _bounds(plan)
-
-
-def _touch(one: Outline, other: Outline, negligible: float) -> bool:
-    """Whether two outlines overlap, or are closer than something negligible."""
-    if isinstance(one, Disc) and isinstance(other, Disc):
-        away = hypot(one.position[0] - other.position[0], one.position[1] - other.position[1])
-        smaller, larger = sorted((one, other), key=lambda disc: disc.radius)
-        apart = max(away - smaller.radius - larger.radius, larger.inner_radius - away - smaller.radius)
-        return apart <= negligible
-    if any(
-        low > upper + negligible or lower > high + negligible
-        for (low, high), (lower, upper) in zip(_bounds(one), _bounds(other), strict=True)
-    ):
-        return False
-    if isinstance(one, Rectangle | Strip) and isinstance(other, Rectangle | Strip):
-        return True
-    first, second = (outline_region(outline, "") for outline in (one, other))
-    return first.gap(second) <= negligible or first.contains(second) or second.contains(first)
-
-
-def _bounds(outline: Outline) -> _Bounds:
-    """Least and largest x and y of an outline."""
-    if isinstance(outline, Strip):
-        return (outline.start, outline.end), (0.0, outline.width)
-    if isinstance(outline, Rectangle):
-        (x, y), (length, width) = outline.position, outline.size
-        return (x - 0.5 * length, x + 0.5 * length), (y - 0.5 * width, y + 0.5 * width)
-    if isinstance(outline, Disc):
-        (x, y), radius = outline.position, outline.radius
-        return (x - radius, x + radius), (y - radius, y + radius)
-    along, across = zip(*outline.points, strict=True)
-    return (min(along), max(along)), (min(across), max(across))
+    return bounds_of(plan)
 
 
 def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -315,7 +305,7 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     unit = physical_plan(scene).unit
     for index, plate in enumerate(scene.plates):
         outline = physical_outline(scene, plate)
-        (low, high), (lower, upper) = _bounds(outline)
+        (low, high), (lower, upper) = bounds_of(outline)
         extent = min(high - low, upper - lower)
         if isinstance(outline, Disc) and outline.inner_radius:
             extent = outline.radius - outline.inner_radius
@@ -354,7 +344,7 @@ def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_plan_is_complete, _polygons_are_simple, _something_moves, volumes_are_of_plates),
+    (_plan_is_complete, _depths_are_given, _polygons_are_simple, _something_moves, volumes_are_of_plates),
     (_files_can_be_read,),
     (_outlines_fit_the_plan, _edges_can_be_held, _depth_fits_the_plan, _bed_is_below_the_surface),
     (liquids_are_layered, columns_lie_in_the_tank, shaped_beds_are_simple),

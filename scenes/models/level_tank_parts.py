@@ -97,7 +97,8 @@ class PlanTank(SceneModel):
     shape: Path | None = Field(
         default=None,
         description="file of a tank of any shape, m: the inside as one solid (*.step, *.stp, *.brep), filled to depth "
-        'above its lowest point, or a mesh of the liquid (*.msh) with the physical surface "free_surface"',
+        'above its lowest point, or a mesh of the liquid (*.msh) with the physical surface "free_surface", and '
+        '"baffle" for thin walls inside',
     )
     bed: ShapedBed | None = Field(default=None, description="bed of an upright tank that is not level")
     model: Literal["smallest", "volume"] = Field(
@@ -117,13 +118,14 @@ class PlanTank(SceneModel):
         return {key: value for key, value in write(self).items() if value is not None and idle.get(key) != value}
 
 
-class PlanLiquid(SceneModel):
+class PlanLiquid(SparseModel):
     """An ideal incompressible liquid."""
 
     density: PositiveNumber = Field(description="density, kg/m³")
-    depth: PositiveNumber = Field(
+    depth: PositiveNumber | None = Field(
+        default=None,
         description="depth, m; of the lowest one over the middle of a sloping bed, over the lowest point of a bed of "
-        "points or of a file"
+        "points or of a file; a mesh (*.msh) has its own, which it must agree with if it is given",
     )
 
 
@@ -265,8 +267,8 @@ class LevelTankParts(SceneInFolder):
 
     @property
     def depth(self) -> float:
-        """That of all liquids together, m."""
-        return sum(liquid.depth for liquid in self.liquid)
+        """That of all liquids together, m, as it is given; 0 where a mesh tells it."""
+        return sum(liquid.depth or 0.0 for liquid in self.liquid)
 
     @property
     def density(self) -> float:

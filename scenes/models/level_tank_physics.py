@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from pathlib import Path
 
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, Plan, PolygonPlan, middle_of
+from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank, Plan, PolygonPlan, middle_of
 from hydroelastic.physics.plate import Disc, Outline, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.volume_tank import Bed, LowerLiquid, SlopingBed, SurveyedBed, VolumeTank
 from hydroelastic.scenes.models import level_tank_parts as parts
@@ -13,9 +13,10 @@ from hydroelastic.scenes.models import level_tank_parts as parts
 
 def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
     """Return the tank of a scene; SI units."""
+    plan = physical_plan(scene)
     tank = LevelTank(
-        plan=physical_plan(scene),
-        depth=scene.depth,
+        plan=plan,
+        depth=depth_of(plan, scene),
         density=scene.density,
         gravity=scene.tank.gravity,
         top=scene.tank.top,
@@ -43,8 +44,13 @@ def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
         floats=tuple(body.solid(middle, scene.density, scene.folder) for body in scene.floats),
         columns=tuple(column.outline(middle) for column in scene.column),
         baffles=tuple(baffle.physical(middle) for baffle in scene.baffle),
-        lower=LowerLiquid(density=lower.density, depth=lower.depth) if len(scene.liquid) == 2 else None,
+        lower=LowerLiquid(density=lower.density, depth=lower.depth or 0.0) if len(scene.liquid) == 2 else None,
     )
+
+
+def depth_of(plan: Plan, scene: parts.LevelTankParts) -> float:
+    """Return the depth of all liquids together, m, which a mesh of a file has by itself."""
+    return plan.fill if isinstance(plan, FilePlan) else scene.depth
 
 
 def needs_volume(scene: parts.LevelTankParts) -> bool:

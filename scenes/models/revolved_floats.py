@@ -11,7 +11,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.motions import Level, SolidMotion
 from hydroelastic.physics.solids import SolidShape
-from hydroelastic.scenes.models.bodies import MOST_VERTICES, SUBSTITUTES, motions_differ
+from hydroelastic.scenes.models.bodies import LEFT_OUT, MOST_VERTICES, motions_differ
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 
@@ -51,6 +51,11 @@ class RevolvedFloat(SceneModel):
     )
     mass: PositiveNumber | None = Field(
         default=None, description="mass, kg, by which it is immersed; by default that of the water that it displaces"
+    )
+    vertical_force: AnyNumber | None = Field(
+        default=None,
+        description="constant vertical force of moorings on the body, upwards positive, N, at its centre of mass: the "
+        "weight is that of the displaced liquid and this force; by default none",
     )
     vertical_centre_of_gravity: AnyNumber | None = Field(
         default=None,
@@ -101,8 +106,8 @@ class RevolvedFloat(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize a float without the keys that may stand in place of others, unless they are given."""
-        return {key: value for key, value in write(self).items() if key not in SUBSTITUTES or value is not None}
+        """Serialize a float without the keys that most lack, unless they are given."""
+        return {key: value for key, value in write(self).items() if key not in LEFT_OUT or value is not None}
 
     @model_validator(mode="after")
     def _keys_fit(self) -> RevolvedFloat:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 from math import hypot
-from typing import TypeAlias
 
 import numpy as np
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.meshes.plan_regions import outline_region
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
-from hydroelastic.physics.plate import Disc, Point, Rectangle
+from hydroelastic.physics.plate import Bounds, Disc, Outline, Rectangle, Strip, bounds_of
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.scenes.models.level_tank_parts import LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import needs_volume, physical_plan
@@ -21,10 +21,13 @@ from hydroelastic.scenes.models.volume_floats import UnfloatableError, VolumeFlo
 LEAST_DEPTH = 0.05
 """Part of the depth that a bed leaves: cells over a shallower one would be flat."""
 
+LEAST_FLOAT = 1e-5
+"""Least draught and sides of a float in units of the tank's extent: planes closer than 1e-6 of it are one."""
+
+# Part of the size of a float.
+_TOUCHING = 1e-6
 # Part of the largest stiffness.
 _ROUNDING = 1e-12
-
-_Bounds: TypeAlias = tuple[Point, Point]
 
 
 def liquids_are_layered(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -63,10 +66,10 @@ def columns_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
     outlines = [column.outline(middle) for column in scene.column]
     for index, (column, outline) in enumerate(zip(scene.column, outlines, strict=True)):
         key = "size" if column.radius is None else "radius"
-        if not _is_inside(plan, _bounds(outline), isinstance(outline, Disc)):
+        if not _is_inside(plan, bounds_of(outline), isinstance(outline, Disc)):
             yield problem_at(("column", index, key), getattr(column, key), "the column does not lie inside the tank")
         for earlier in outlines[:index]:
-            if _meet(_bounds(outline), _bounds(earlier)):
+            if outlines_touch(outline, earlier, 0.0):
                 yield problem_at(("column", index, key), getattr(column, key), "the column touches another one")
                 break
 
@@ -97,7 +100,7 @@ def volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     """Floats can be at rest as given, are stable, and touch nothing; in two liquids they are in the upper one."""
-    plan, depth = physical_plan(scene), scene.liquid[-1].depth
+    plan, depth = physical_plan(scene), scene.liquid[-1].depth or scene.depth
     middle, first = middle_of(plan), len(scene.plates)
     if any(isinstance(body, VolumeFloat) for body in scene.body[:first]):
         remedy = "Move it to the end of the scene"
@@ -112,12 +115,20 @@ def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             value = getattr(body, error.key)
             yield problem_at(("body", index, error.key), str(value) if error.key == "file" else value, str(error))
             return
-    columns = [_bounds(column.outline(middle)) for column in scene.column]
+    columns = [column.outline(middle) for column in scene.column]
     for index, body, solid in solids:
         if solid.draught >= depth * (1.0 - LEAST_DEPTH):
             most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
             below = "below" if len(scene.liquid) == 1 else "of the upper one below"
             yield problem_at(("body", index, "draught"), solid.draught, f"it leaves no liquid {below}", allowed=most)
+        if min(solid.draught, *solid.size) < LEAST_FLOAT * plan.unit:
+            key = "draught" if body.draught is not None else "mass" if body.mass is not None else body.shape_key
+            value = getattr(body, key)
+            wrong = (
+                f"the float has a draught or a side of {min(solid.draught, *solid.size):.3g} m, too little to be meshed"
+            )
+            most = f"{LEAST_FLOAT * plan.unit:g} m at least"
+            yield problem_at(("body", index, key), str(value) if key == "file" else value, wrong, allowed=most)
         if not _is_inside(plan, solid.bounds, solid.shape in ("cylinder", "sphere", "revolved")):
             key = body.shape_key
             value = getattr(body, key)
@@ -131,11 +142,12 @@ def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
                 f"the float is unstable in {unstable}",
                 remedy="Lower its centre of gravity",
             )
-        if any(_meet(solid.bounds, column) for column in columns):
+        if any(_touch(solid, column) for column in columns):
             yield problem_at(("body", index, body.shape_key), None, "the float touches a column")
-    for (_, _, one), (index, body, other) in combinations(solids, 2):
-        if _meet(one.bounds, other.bounds):
-            yield problem_at(("body", index, body.shape_key), None, "the float touches another one")
+    for (earlier, _, one), (index, body, other) in combinations(solids, 2):
+        if _touch(one, other):
+            wrong = f"the float overlaps or touches [[body]] number {earlier + 1}"
+            yield problem_at(("body", index, body.shape_key), None, wrong, remedy="Leave a gap between them")
 
 
 def _unstable_motion(solid: SolidFloat) -> str:
@@ -149,22 +161,40 @@ def _unstable_motion(solid: SolidFloat) -> str:
     return solid.motions[int(np.argmax(np.abs(vectors[:, 0])))]
 
 
-def _around(position: Point, size: Point) -> _Bounds:
-    (x, y), (along, across) = position, size
-    return (x - 0.5 * along, x + 0.5 * along), (y - 0.5 * across, y + 0.5 * across)
+def outlines_touch(one: Outline, other: Outline, negligible: float) -> bool:
+    """Whether two outlines overlap, or are closer than something negligible."""
+    if isinstance(one, Disc) and isinstance(other, Disc):
+        away = hypot(one.position[0] - other.position[0], one.position[1] - other.position[1])
+        smaller, larger = sorted((one, other), key=lambda disc: disc.radius)
+        apart = max(away - smaller.radius - larger.radius, larger.inner_radius - away - smaller.radius)
+        return apart <= negligible
+    if any(
+        low > upper + negligible or lower > high + negligible
+        for (low, high), (lower, upper) in zip(bounds_of(one), bounds_of(other), strict=True)
+    ):
+        return False
+    if isinstance(one, Rectangle | Strip) and isinstance(other, Rectangle | Strip):
+        return True
+    first, second = (outline_region(outline, "") for outline in (one, other))
+    return first.gap(second) <= negligible or first.contains(second) or second.contains(first)
 
 
-def _bounds(outline: Rectangle | Disc) -> _Bounds:
-    size = outline.size if isinstance(outline, Rectangle) else (2.0 * outline.radius,) * 2
-    return _around(outline.position, size)
+def _touch(one: SolidFloat, other: SolidFloat | Rectangle | Disc) -> bool:
+    """Whether the wetted part of a float touches another solid: one may reach below the other, or stand inside it."""
+    if not _meet(one.bounds, other.bounds if isinstance(other, SolidFloat) else bounds_of(other)):
+        return False
+    # gmsh is slow to import, and few scenes have bodies so close.
+    from hydroelastic.meshes.volume_solids import gap_of_solids
+
+    return gap_of_solids(one, other) <= _TOUCHING * max(one.size)
 
 
-def _meet(one: _Bounds, other: _Bounds) -> bool:
+def _meet(one: Bounds, other: Bounds) -> bool:
     """Whether two boxes touch or overlap."""
     return all(low <= upper and lower <= high for (low, high), (lower, upper) in zip(one, other, strict=True))
 
 
-def _is_inside(plan: Plan, bounds: _Bounds, is_round: bool) -> bool:
+def _is_inside(plan: Plan, bounds: Bounds, is_round: bool) -> bool:
     (left, right), (front, back) = bounds
     if isinstance(plan, Box):
         return left > 0.0 and right < plan.length and front > 0.0 and back < plan.width

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, pi
+from math import isfinite, pi, sqrt
 
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.output.sections import Section
+from hydroelastic.scenes.errors import cannot_be_meshed
 from hydroelastic.scenes.models.open_analyses import (
     Analysis,
     Decay,
@@ -32,9 +34,29 @@ def check_open(scene: TankParts) -> Iterator[Section]:
 
     Args:
         scene: a validated scene.
+
+    Raises:
+        SceneError: if it cannot be meshed.
     """
+    if scene.floats:
+        _require_mesh(scene)
     waves = Section(title="Outgoing waves", lines=tuple(open_waves(scene)))
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
+
+
+def _require_mesh(scene: TankParts) -> None:
+    # They bring dolfinx and gmsh, which take a second to import.
+    from hydroelastic.fem.open_water.field_model import ANGLE, Band
+    from hydroelastic.fem.open_water.model_building import first_mesh, first_resolution
+
+    water, tolerance = physical_tank(scene), scene.accuracy.tolerance
+    # Whether there is a mesh does not depend on the frequency.
+    asked = _frequencies(scene) or [sqrt(water.gravity / (scene.stretch[1] - scene.stretch[0]))]
+    band = Band(lowest=min(asked), highest=max(asked))
+    try:
+        first_mesh(water, tolerance, band, first_resolution(water, tolerance, band), angle=ANGLE)
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
 
 
 def open_requests(scene: TankParts) -> Iterator[str]:
@@ -114,15 +136,19 @@ def _span(values: tuple[float, ...], what: str) -> str:
     return f"{len(values)} {plural} from {min(values):g} to {max(values):g}"
 
 
-def open_waves(scene: TankParts) -> Iterator[str]:
-    """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
-    asked = [
+def _frequencies(scene: TankParts) -> list[float]:
+    return [
         omega
         for analysis in scene.analyses
         if isinstance(analysis, Radiation | Response)
         for omega in analysis.omega
         if omega > 0.0 and isfinite(omega)
     ]
+
+
+def open_waves(scene: TankParts) -> Iterator[str]:
+    """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
+    asked = _frequencies(scene)
     layers = two_layers(physical_tank(scene))
     for omega in sorted({min(asked), max(asked)}) if asked else ():
         lengths = [f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(layers, omega)]

@@ -10,7 +10,7 @@ from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.time_domain.motion import UnsolvedMotionError
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -27,8 +27,7 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
     try:
         solved = solve_open_water(open_water_problem(scene, comm, Stopwatch()), requests, report)
     except MeshError as error:
-        problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
-        raise SceneError(problem) from error
+        raise cannot_be_meshed(error) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     except UnsolvedMotionError as error:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.provenance import SCENE, VERSIONS, read_summary
+from hydroelastic.output.provenance import SCENE, VERSIONS, read_summary, warnings_of
 from hydroelastic.output.sections import title_of
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.read import Scene
@@ -34,7 +34,7 @@ def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
         kind=kind_of(summary),
         tolerance=told[SCENE]["accuracy"]["tolerance"],
         reasons=outcome.reasons,
-        warnings=outcome.warnings,
+        warnings=(*warnings_of(summary), *outcome.warnings),
         version=told[VERSIONS]["hydroelastic"],
         parts=tuple(_parts(scene, outcome, folder / "images")),
     )

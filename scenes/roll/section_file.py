@@ -85,7 +85,7 @@ def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: R
                 report=report,
             )
     except MeshError as error:
-        raise mesh_refused(section, str(error)) from error
+        raise mesh_refused(section, error) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     except SectionRollError as error:

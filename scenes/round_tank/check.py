@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.tank.resolution import initial_resolution
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.bodies import bodies_at_rest_section
 from hydroelastic.output.sections import Row, Section
+from hydroelastic.scenes.errors import cannot_be_meshed
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
@@ -15,8 +19,12 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
 
     Args:
         scene: a validated scene; nothing is solved.
+
+    Raises:
+        SceneError: if it cannot be meshed.
     """
     asked = scene.accuracy
+    _require_mesh(scene)
     outline = scene.bed
     if outline is None:
         bed = "level bed"
@@ -48,6 +56,17 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     if scene.body:
         yield bodies_at_rest_section(physical_tank(scene))
+
+
+def _require_mesh(scene: OrderedTankScene) -> None:
+    from hydroelastic.fem.tank.mesh import make_mesh  # it brings gmsh
+
+    tank, asked = physical_tank(scene).of_order(0).scaled(), scene.accuracy
+    tones, motions = expected_tones(tank), ends_of_motions(tank)
+    try:
+        make_mesh(tank, initial_resolution(tank, asked.tolerance, modes=asked.modes, tones=tones, motions=motions))
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
 
 
 def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:

@@ -7,7 +7,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.liquid.sloping_walls import lowest_between_slopes
 from hydroelastic.modal.plate.round_estimates import round_plate_estimates
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.errors import UnsolvedError, cannot_be_meshed
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.round_tank import OrderedTankScene
@@ -28,8 +28,7 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
     try:
         solution = round_solution(physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report)
     except MeshError as error:
-        problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
-        raise SceneError(problem) from error
+        raise cannot_be_meshed(error) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     with watch.stage("estimates"):

@@ -23,7 +23,7 @@ from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.output.sections import text_console, text_of
 from hydroelastic.physics.volume_tank import VolumeTank
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, folder_errors
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed, folder_errors
 from hydroelastic.scenes.level_tank.solve import require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
@@ -66,8 +66,9 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
         report: receives messages on the progress.
 
     Raises:
-        SceneError: if no model takes the scene, it is solved in its volume, or the plan asks for no tolerances.
-        UnsolvedError: if the eigen-solver or the mesher fails.
+        SceneError: if no model takes the scene, it is solved in its volume, the plan asks for no tolerances, or it
+            cannot be meshed.
+        UnsolvedError: if the eigen-solver fails.
     """
     require_treated(scene)
     if "tolerance" not in plan.families:
@@ -95,8 +96,10 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
         for row in level_rows(tank, reference, plan.tolerances, modes):
             report(f"{row.model}, tolerance {row.tolerance:g}: error {row.error:.1e}")
             rows.append(row)
-    except (EigenSolverError, MeshError) as error:
+    except EigenSolverError as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
     return LevelStudy(scene=scene, tolerances=plan.tolerances, reference=reference, rows=tuple(rows))
 
 

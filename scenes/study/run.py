@@ -84,7 +84,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     except MeshError as error:
-        raise mesh_refused(scene, str(error)) from error
+        raise mesh_refused(scene, error) from error
 
 
 def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:

@@ -11,10 +11,12 @@ from hydroelastic.fem.tank.resolution import (
     initial_resolution,
     workable_tolerance,
 )
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.geometry import BAFFLE
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.errors import cannot_be_meshed
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.check_hints import hints
@@ -28,9 +30,13 @@ def check_tank(scene: TankParts) -> Iterator[Section]:
         scene: a validated scene.
 
     Raises:
-        SceneError: if the scene brings a mesh that cannot be read or does not fit it.
+        SceneError: if it cannot be meshed, or brings a mesh that cannot be read or does not fit it.
     """
-    return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=tuple(_sizes(scene))))
+    try:
+        sizes = tuple(_sizes(scene))
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
+    return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=sizes))
 
 
 def modelled_tank(scene: TankParts, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
@@ -63,6 +69,8 @@ def _sizes(scene: TankParts) -> Iterator[str]:
     resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(tank, resolution, user_mesh, half=half)}."
+    if user_mesh is not None and BAFFLE in user_mesh.facet_names:
+        yield f"  The mesh has {user_mesh.facet_measure(BAFFLE):.5g} m of baffles, with ψ_n = 0 on both sides."
     if resolution.modes > scene.accuracy.modes:
         what = (
             "the modes that share the first elastic tone"

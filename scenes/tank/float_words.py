@@ -80,8 +80,10 @@ class FloatWords(BodyWords):
         displaced = [
             density * area for density, area in zip(self.scene.densities_at(self.level), rest.areas, strict=True)
         ]
+        force = self.body.vertical_force
         return {
             "mass, kg/m": f"{rest.mass:.6g}",
+            **({} if force is None else {"vertical force of moorings, N/m": f"{force:.6g}"}),
             "displaced below + above, kg/m": f"{displaced[0]:.6g} + {displaced[1]:.6g}",
             "reference level above the still level, m": f"{rest.reference_level - rest.level:.6g}",
             "draught, height above the level, m": f"{rest.level - low:.6g}, {high - rest.level:.6g}",

@@ -79,7 +79,7 @@ def solve_tank_alone(scene: TankScene, comm: MPI.Comm, report: Report, liquids: 
     try:
         solution = solve_scene(scene, comm=comm, mesh=user_mesh(scene, comm), liquids=liquids, report=report)
     except MeshError as error:
-        raise mesh_refused(scene, str(error)) from error
+        raise mesh_refused(scene, error) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     return EstimatedTank(scene=scene, tank=solution)

@@ -6,7 +6,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.tank.mesh import check_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.errors import Problem, SceneError, cannot_be_meshed
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -20,12 +20,13 @@ def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     from hydroelastic.meshes.files import load_mesh  # meshio takes a while to import
+    from hydroelastic.meshes.inner_walls import opened_along_baffles
 
     try:
-        mesh = load_mesh(scene.mesh.file)
+        mesh = opened_along_baffles(load_mesh(scene.mesh.file), scene.mesh.file.name)
         check_mesh(physical_tank(scene).scaled(), mesh.scaled(1.0 / scene.tank.length))
     except MeshError as error:
-        raise mesh_refused(scene, str(error)) from error
+        raise mesh_refused(scene, error) from error
     return mesh
 
 
@@ -45,21 +46,21 @@ def user_mesh(scene: TankParts, comm: MPI.Comm) -> TaggedMesh | None:
             refused = error
         except Exception as error:
             # Any error must reach the other processes, which wait for the mesh.
-            refused = mesh_refused(scene, str(error) or type(error).__name__)
+            refused = mesh_refused(scene, error)
     refused = comm.bcast(refused, root=0)
     if refused is not None:
         raise refused
     return mesh
 
 
-def mesh_refused(scene: TankParts, wrong: str) -> SceneError:
+def mesh_refused(scene: TankParts, error: Exception) -> SceneError:
     """Return the error for a mesh that cannot be used, the user's or the built-in one."""
     if scene.mesh is None:
-        return SceneError(Problem(wrong=f"no mesh could be made: {wrong}", remedy="Please report this scene"))
+        return cannot_be_meshed(error)
     problem = Problem(
         key='[mesh], key "file"',
         value=f'"{scene.mesh.file}"',
-        wrong=wrong,
+        wrong=str(error) or type(error).__name__,
         remedy="Correct the mesh, or leave [mesh] out to use the built-in one",
     )
     return SceneError(problem, file=scene.source)

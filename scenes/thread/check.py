@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 
+import numpy as np
+
+from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
+from hydroelastic.modal.thread.fixed_end_estimates import catenary_of
+from hydroelastic.modal.thread.shape import NoTensionError
 from hydroelastic.output.digits import number
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadMotion, ThreadStability
 from hydroelastic.scenes.models.thread_tables import FixedEnd, FreeEnd, SurfaceEnd
-from hydroelastic.scenes.thread.physics import frame_of
+from hydroelastic.scenes.thread.physics import frame_of, no_sea_bed, thread_of
+
+# Of the catenary, whose lowest point lies between two of them.
+_PLACES = 1001
 
 
 def check_thread(scene: ThreadScene) -> Iterator[Section]:
@@ -91,8 +100,24 @@ def _stream(scene: ThreadScene) -> Iterator[str]:
 def _held(scene: ThreadScene) -> Iterator[str]:
     for name, end in (("A", scene.ends.a), ("B", scene.ends.b)):
         yield f"End {name}: {_end(end)}."
+    yield from _bed(scene)
     if scene.load:
         yield f"{len(scene.load)} bodies on the thread, at {', '.join(number(load.at) for load in scene.load)} m."
+
+
+def _bed(scene: ThreadScene) -> Iterator[str]:
+    """Whether the line alone, a catenary, hangs below its anchor; of a stream or bodies on it only a run knows."""
+    if scene.stream is None and scene.thread.weight is None:
+        return
+    words = None
+    if not scene.load:
+        thread, a, b = thread_of(scene), scene.ends.a, scene.ends.b
+        with contextlib.suppress(NoAsymptoticError, NoTensionError):
+            shape = catenary_of(thread, np.linspace(0.0, thread.length, _PLACES))
+            assert isinstance(a, FixedEnd)
+            assert isinstance(b, FixedEnd)
+            words = no_sea_bed(scene, (a.position[2], b.position[2]), float(shape.positions[:, 2].min()))
+    yield words or "No sea bed is modelled."
 
 
 def _end(end: FixedEnd | FreeEnd | SurfaceEnd) -> str:

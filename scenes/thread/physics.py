@@ -116,3 +116,33 @@ def frame_of(scene: ThreadScene) -> Frame:
     """The coordinates in which a scene is solved: in space if modes are asked for, which go in all directions."""
     motions = [motion_request_of(scene, motion) for motion in scene.motions]
     return choose_frame(thread_of(scene), motions, in_space=len(motions) < len(scene.analysis))
+
+
+# Of the length: a line that hangs less far below its end lies along the bed there.
+_BELOW = 1e-3
+
+
+def no_sea_bed(scene: ThreadScene, heights: Sequence[float], lowest: float) -> str | None:
+    """Say that no sea bed is modelled if a line in a liquid hangs below its lower end, which is fixed as an anchor is.
+
+    Args:
+        scene: the scene.
+        heights: z of the ends A and B, m; of equal ones, as of a cable between masts, neither is the lower.
+        lowest: z of the lowest point of the line, m.
+    """
+    length, (lower, upper) = scene.thread.length, sorted(heights)
+    end = scene.ends.a if heights[0] == lower else scene.ends.b
+    # With a mass and without a liquid it hangs in air, where there is no sea bed.
+    in_liquid = scene.stream is not None or scene.thread.weight is not None
+    if (
+        not in_liquid
+        or not isinstance(end, FixedEnd)
+        or upper - lower < _BELOW * length
+        or lower - lowest < _BELOW * length
+    ):
+        return None
+    return (
+        f"No sea bed is modelled: the line hangs down to z = {lowest:.6g} m, {lower - lowest:.4g} m below its lower "
+        "fixed end. If that is an anchor on the bed, a part of the real line lies there, and its shape, its tensions "
+        "and the forces at its ends differ from these."
+    )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.thread.analyses import ThreadAnalyses
 from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread.physics import no_sea_bed
 
 Floats = NDArray[np.float64]
 
@@ -44,6 +45,13 @@ class ThreadSolutionOfScene(ThreadAnalyses):
             "added_mass": scene.added_mass,
             "dimension": self.frame.dimension,
         }
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is not modelled and these results show: a sea bed."""
+        ends = self.rest.end_positions
+        words = no_sea_bed(self.scene, (float(ends[0, 2]), float(ends[1, 2])), self.rest.lowest_height)
+        return (words,) if words else ()
 
     @property
     def reasons(self) -> tuple[str, ...]:

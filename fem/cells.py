@@ -82,7 +82,7 @@ def nearest_in_cells(mesh: Mesh, cells: np.ndarray, points: np.ndarray) -> tuple
 
     reference = np.full(points.shape, 1.0 / 3.0)
     offsets, slopes = tabulated(reference)
-    length = np.ones(len(points))
+    length: np.ndarray = np.ones(len(points))
     for _ in range(_NEAREST_STEPS):
         step = np.linalg.solve(slopes, offsets[..., None])[..., 0]
         tried = _in_reference_triangle(reference - length[:, None] * step)

@@ -131,6 +131,9 @@ def _evaluated(space: PlanSpace, coefficients: FloatArray, points: FloatArray, c
     chosen = order[np.append(True, np.diff(owners[order]) > 0)] if len(order) else order
     table = space.liquid.space.element.basix_element.tabulate(0, reference[chosen])[0, :, :, 0]
     dofs = space.liquid.space.dofmap.list[candidates[chosen]]
-    at = sparse.csr_matrix((table.ravel(), dofs.ravel(), np.arange(0, dofs.size + 1, dofs.shape[1])), shape=(len(points), space.liquid.size))
+    at = sparse.csr_matrix(
+        (table.ravel(), dofs.ravel(), np.arange(0, dofs.size + 1, dofs.shape[1])),
+        shape=(len(points), space.liquid.size),
+    )
     values: FloatArray = at @ space.expanded(coefficients)
     return values

@@ -114,8 +114,8 @@ def test_a_rigid_disc_under_a_lid_has_as_many_digits_as_asked_for(tmp_path: Any)
     assert np.all(coarse.modes.relative_error <= 1e-3)
 
 
-# A cylinder over a cone, and a canal with a flat and a sloping bed: modes with little motion at the corners had estimates
-# down to a sixth of their errors. Tank, tolerance, and the frequencies at the tolerance 1e-10.
+# A cylinder over a cone, and a canal with a flat and a sloping bed: modes with little motion at the corners had
+# estimates down to a sixth of their errors. Tank, tolerance, and the frequencies at the tolerance 1e-10.
 CORNERS: dict[str, tuple[dict[str, Any], float, list[float]]] = {
     "cone": (
         {"radius": 2.8858123501354154, "outline": [[0.0, -1.0], [2.8858123501354154, -0.0011840366225681351]]},

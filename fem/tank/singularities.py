@@ -164,7 +164,7 @@ def tank_singular_points(
 
 
 def weak_corners(tank: Tank, *, half: bool) -> dict[Point, float]:
-    """Corners of bed and walls, and the bed's tip on the axis, where ψ ~ r^α is too weak for rings, 1 < α < 3: each α."""
+    """Corners of bed and walls, and the bed's tip on the axis, where ψ ~ r^α is too weak for rings: α from 1 to 3."""
     outline = tank_outline(tank, unsized(tank), half=half, infinite_frequency=False)
     found = {}
     for point, around in _wedges(outline).items():

@@ -120,6 +120,12 @@ CASES: dict[str, tuple[Callable[[float, float], Document], float, int, Callable[
         lambda _size, named: 0.5 * named,
     ),
     "nearest floats": (beside, 6.50001, -1, lambda size, gap: 6.0 * size + gap + 0.5 * size),
+    "highest centre of mass": (
+        lambda size, x: tank(size, box(size, centre_of_mass=x, motions=["heave", "roll"])),
+        9.0,
+        0,
+        lambda _size, named: named,
+    ),
     "narrowest plate": (disc, 1e-9, 0, lambda _size, named: 0.5 * named),
     "slowest waves": (swell, 1e-9, 0, lambda _size, named: named),
     "fastest waves": (swell, 1e9, 1, lambda _size, named: named),

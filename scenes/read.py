@@ -152,10 +152,12 @@ class SceneSource:
     Attributes:
         document: its tables and values.
         file: where it was read; ``None`` if it was made in Python.
+        folder: to which the paths of files that it names are relative; ``None`` is the current one.
     """
 
     document: Document
     file: Path | None
+    folder: Path | None = None
 
     def scene(self, *overrides: Iterable[str] | Mapping[str, Any]) -> Scene:
         """Return the scene with replacements, see `read_scene`; later ones come after earlier ones.
@@ -171,7 +173,9 @@ class SceneSource:
         if changes:
             label += f" with {' '.join(f'{change.option} {change.text}' for change in changes)}"
         model = _model_of(document, label)
-        context = {"folder": self.file.parent, "source": label} if self.file is not None else None
+        context: dict[str, Any] | None = None if self.folder is None else {"folder": self.folder}
+        if self.file is not None:
+            context = {"folder": self.file.parent, "source": label}
         try:
             scene = model.model_validate(document, context=context)
         except ValidationError as error:
@@ -194,8 +198,10 @@ def scene_source(scene: Scene | str | Path | Mapping[str, Any]) -> SceneSource:
     if not isinstance(scene, Mapping) and not is_scene(scene):
         allowed = "a scene, the name of a shipped scene, a file, or a dictionary with the keys of a file"
         raise SceneError(Problem(key="scene", value=repr(scene)[:60], wrong="it is not a scene", allowed=allowed))
+    if isinstance(scene, Mapping):
+        return SceneSource(document=_as_read(dict(scene)), file=None)
     # The dictionary of a scene would have what was computed of it, too.
-    return SceneSource(document=_as_read(scene if is_scene(scene) else dict(scene)), file=None)
+    return SceneSource(document=_as_read(scene), file=None, folder=scene.folder)
 
 
 def is_scene(value: Any) -> bool:

@@ -22,6 +22,9 @@ def start() -> None:
     gc.callbacks.append(lambda _phase, _found: gc.set_threshold(_BETWEEN_SEARCHES))
     # Else it reads the metadata of every installed package.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    # It would make a folder for preferences in the home folder.
+    cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    os.environ.setdefault("MPLCONFIGDIR", os.path.join(cache, "matplotlib"))
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
     if _SOLVING.intersection(sys.argv[1:2]) and not {"-h", "--help"}.intersection(sys.argv):

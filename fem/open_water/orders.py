@@ -35,7 +35,7 @@ from hydroelastic.fem.open_water.requests import (
 )
 from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, drawn, drawn_tolerance, solve_response
-from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import HullPressure, Largest, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
@@ -201,8 +201,14 @@ def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> Respo
         drift = direction_of(whole.waves_from) * drift.sum(axis=1)
         # The pair of the last order and the next, which scatters far less, is −|aₙ|².
         drift_error += widths * np.abs(waves[:, -1]) ** 2
+    parts = [(table.dofs, table.largest) for table in tables if table.largest is not None]
+
+    def largest(name: str) -> np.ndarray:
+        return _by_dof(whole.dofs, [(dofs, getattr(part, name)) for dofs, part in parts])
+
     return replace(
         whole,
+        largest=Largest(value=largest("value"), omega=largest("omega"), error=largest("error")),
         drift_force=drift[:, None],
         drift_error=drift_error[:, None],
         missed_peaks=tuple(peak for table in tables for peak in table.missed_peaks),

@@ -169,6 +169,21 @@ class UnresolvedPeak:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Largest:
+    """The largest magnitudes over the frequencies, those between the requested ones too.
+
+    Attributes:
+        value: of each motion, m/m or rad/m, or of each reflected wave.
+        omega: where they are, rad/s, of the same shape.
+        error: their estimated errors, of the same shape.
+    """
+
+    value: Floats
+    omega: Floats
+    error: Floats
+
+
+@dataclass(frozen=True, kw_only=True)
 class ResponseTable:
     """Motions and waves per unit elevation of the incident wave. Shapes: n frequencies, m motions, w waves.
 
@@ -197,6 +212,8 @@ class ResponseTable:
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
         curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
+        largest: motions, shape (w, m); of more than six frequencies those of the curve.
+        largest_reflection: of each wave into itself, shape (w,); ``None`` about an axis.
         partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
             order j about an axis, j = 0, 1 …; ``None`` of a section.
     """
@@ -222,6 +239,8 @@ class ResponseTable:
     fields_at: tuple[float, ...] = ()
     curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
+    largest: Largest | None = None
+    largest_reflection: Largest | None = None
     partial_waves: Complexes | None = None
 
     def largest_load_error(self, weight: float) -> float:

@@ -186,6 +186,7 @@ class ResponseTable:
         near_field_drift: (n, w) the drift force by the field beside the bodies, N/m³; in one liquid, if pressures were
             requested.
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
+        wave_amplitude: of the incident waves, m, on which the damping by drag depends; 0 where it is not given.
         curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
         partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
@@ -210,6 +211,7 @@ class ResponseTable:
     hulls: tuple[HullPressure, ...] = ()
     near_field_drift: Floats | None = None
     fields_at: tuple[float, ...] = ()
+    wave_amplitude: float = 0.0
     curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
     partial_waves: Complexes | None = None

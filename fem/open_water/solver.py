@@ -272,7 +272,7 @@ class OpenSolver:
         dampings = np.repeat(self.damping[None], len(motions), axis=0)
         if self.elevation:
             # Drag depends on the height of the wave: each has a damping of its own.
-            heights = self.elevation / self.model.basin.units.length / waves.elevations
+            heights = waves.heights(self.model.basin, self.elevation)
             for place, (height, force) in enumerate(zip(heights, forces, strict=True)):
                 speeds = partial(_speeds, outside.paths, omega, dynamic, height * force)
                 damping = outside.equivalent_damping(speeds, REGULAR)

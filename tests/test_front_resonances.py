@@ -66,3 +66,16 @@ def test_resonances_of_the_water_between_far_bodies_are_among_the_lowest() -> No
     assert len(table) == result.summary["resonance"][0]["counted"] == 4
     # Of a mesh to 1e-4, which the search near the motions of the bodies alone leaves out: it begins at 1.35.
     assert table.omega[:3] == pytest.approx([0.93514 - 0.31702j, 1.15609 - 0.18567j, 1.35096 - 0.12210j], rel=1e-3)
+
+
+def test_elastic_tones_far_above_any_wave_are_sought_only_if_asked_for() -> None:
+    """The first tone of 67 rad/s bends among waves of 14 mm; a mesh for these took minutes and gigabytes."""
+    stiff = {"kind": "beam", "start": 0.0, "length": 10.0, "flexural_rigidity": 1e8, "mass_per_length": 100.0}
+    result = resonances([stiff])
+    (table,) = result.summary["resonance"]
+    assert result.summary["status"] == "ok"
+    assert table["counted"] == len(result.modes) >= 1
+    # (4.73/l)² √(EI/m) with the added mass of a strip on waves far shorter than it; of a coarse mesh, for one digit.
+    assert table["not_sought"] == pytest.approx(67.0, rel=0.05)
+    assert "were not sought" in str(result)
+    assert result.summary["size"]["dofs"] < 10_000

@@ -36,6 +36,9 @@ ANGLE = 1.3
 """α of the complex scaling, rad: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are eigenvalues in deep water; beyond
 `MOST_DAMPING_ANYWHERE` they are found by `damped`."""
 
+SHORTEST_WAVES = 100.0
+"""Largest length of an elastic body, in radians of a wave, at whose frequency elastic tones are sought unasked."""
+
 # By so much α exceeds −arg k over a bed.
 _DECAYING = 0.5
 # A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
@@ -111,7 +114,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         EigenSolverError: if SLEPc fails.
     """
     watch = problem.watch
-    expected = bodies_at_infinite_frequency(problem).frequencies()
+    expected, beyond = expected_frequencies(problem, request)
     if not expected:
         return _nothing(problem)
     region = _region(expected, request)
@@ -152,12 +155,37 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
     with watch.stage("count"):
         closed, counted = _counted(solver, _closed_region(region, found, request), known)
     return ResonanceSolution(
-        table=_table(found, attempt.causes, counted, closed),
+        table=replace(_table(found, attempt.causes, counted, closed), not_sought=beyond),
         model=found.model,
         error=attempt.error,
         known=_known(found, closed, known),
         unstable=bool(np.linalg.eigvalsh(scaled_stiffness(found.model.stiffness)).min(initial=0.0) < -_UNSTABLE),
     )
+
+
+def expected_frequencies(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[float], float | None]:
+    """Return the frequencies near which resonances are sought, rad/s, ascending, and the lowest elastic tone whose waves
+    are too short for the request; ``None`` for none (collective).
+
+    Without an upper limit elastic tones of stiff bodies are not sought among waves far shorter than the bodies.
+    """
+    bodies = bodies_at_infinite_frequency(problem)
+    expected = bodies.frequencies()
+    elastic = [right - left for left, right in (body.waterplane for body in problem.tank.bodies if body.is_elastic)]
+    if request.below is not None or not elastic:
+        return expected, None
+    rigid = bodies.frequencies(floats=True) if bodies.of_floats.any() else []
+    sought = [
+        omega
+        for omega in expected
+        if omega <= max(rigid, default=0.0) or _wavenumber(problem, omega) * min(elastic) <= SHORTEST_WAVES
+    ]
+    return sought, next((omega for omega in expected[: request.count] if omega not in sought), None)
+
+
+def _wavenumber(problem: OpenWaterProblem, omega: float) -> float:
+    """Largest wavenumber of waves of a frequency, 1/m."""
+    return Band(lowest=omega, highest=omega).wavenumbers(problem.tank)[1]
 
 
 def _known(found: _Found, region: Region, rough: list[complex]) -> int:

@@ -251,6 +251,8 @@ class ResonanceTable:
         relative_error: (r,) estimated relative error of ω.
         counted: number of resonances in the region by an independent count; ``None`` where that is not certain.
         region: of ω in which they were counted; ``None`` where no motion has a restoring force.
+        not_sought: frequency of the lowest of the elastic tones that were left out, as waves are far shorter there than
+            the bodies, rad/s; ``None`` of none.
     """
 
     omega: Complexes
@@ -261,6 +263,7 @@ class ResonanceTable:
     relative_error: Floats
     counted: int | None
     region: Region | None
+    not_sought: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -60,7 +60,7 @@ def test_as_many_resonances_are_listed_as_are_counted(kind: str, tolerance: floa
 
 
 def test_resonances_of_the_water_between_far_bodies_are_among_the_lowest() -> None:
-    """Waves between two bodies come back in phase at k (d + 2s) = nπ, about 0.4 rad/s apart or less from the first on."""
+    """Waves between two bodies come back in phase where k d is about a multiple of π: far apart, at low frequencies."""
     result = resonances(BODIES["damped floats far apart"], 12.0, count=4)
     table = result.modes
     assert len(table) == result.summary["resonance"][0]["counted"] == 4

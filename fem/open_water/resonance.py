@@ -164,8 +164,8 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
 
 
 def expected_frequencies(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[float], float | None]:
-    """Return the frequencies near which resonances are sought, rad/s, ascending, and the lowest elastic tone whose waves
-    are too short for the request; ``None`` for none (collective).
+    """Return the frequencies near which resonances are sought, rad/s, ascending, and the lowest elastic tone that is
+    not sought, if there is one (collective).
 
     Without an upper limit elastic tones of stiff bodies are not sought among waves far shorter than the bodies.
     """
@@ -233,9 +233,9 @@ def _inside(solver: OpenSolver, region: Region) -> dict[complex, float] | None:
     """ω in a region of the resonances by solutions on its boundary alone, rad/s, with |dλ/dα|/|λ| of each; ``None``
     where they do not agree with the argument of det D along it (collective).
 
-    These solutions span the eigenvectors within (T. Sakurai and H. Tadano, Hokkaido Math. J. 36 (2007) 745). Poles of H,
-    as of the water between two bodies, cancel zeros in the winding number; where waves grow more along the bodies than
-    the mesh resolves, the continuous spectrum adds zeros and poles.
+    These solutions span the eigenvectors within (T. Sakurai and H. Tadano, Hokkaido Math. J. 36 (2007) 745). Poles of
+    H, as of the water between two bodies, cancel zeros in the winding number; where waves grow more along the bodies
+    than the mesh resolves, the continuous spectrum adds zeros and poles.
     """
     model, search = solver.model, _outgoing_search(solver.model)
     winding, size = zeros_in(solver, region.boundary), solver.basis_size

@@ -244,8 +244,8 @@ def _counted(table: ResonanceTable) -> str:
 def _not_sought(table: ResonanceTable) -> Iterator[str]:
     if table.not_sought is not None:
         yield (
-            f"Elastic tones from about {table.not_sought:.3g} rad/s on were not sought: waves are far shorter there than "
-            "the body. below has them sought, at the cost of a mesh for these waves."
+            f"Elastic tones from about {table.not_sought:.3g} rad/s on were not sought: waves are far shorter there "
+            "than the body. below has them sought, at the cost of a mesh for these waves."
         )
 
 

@@ -18,7 +18,6 @@ from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, drift_widths
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.incident_waves import direction_of
-from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
@@ -33,7 +32,7 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, expected_frequencies, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, drawn, drawn_tolerance, solve_response
 from hydroelastic.fem.open_water.results import HullPressure, Largest, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
@@ -236,8 +235,9 @@ def _around(parts: list[HullPressure]) -> HullPressure:
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
     orders: Iterable[int] = problem.tank.orders
+    beyond: float | None = None
     if any(body.flexural_sections for body in problem.tank.bodies):
-        orders, highest = _bending_orders(problem, request)
+        orders, highest, beyond = _bending_orders(problem, request)
         request = replace(request, below=highest)
     found = [solve_resonance(problem.of_order(order), request) for order in orders]
     tables = [one.table for one in found]
@@ -256,6 +256,7 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
         relative_error=np.concatenate([one.relative_error for one in tables])[chosen],
         counted=None if None in counts else sum(count for count in counts if count is not None),
         region=_joined_region([one.region for one in tables if one.region is not None]),
+        not_sought=beyond,
     )
     return ResonanceSolution(
         table=table,
@@ -266,20 +267,26 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
     )
 
 
-def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float]:
-    """Return the orders of the lowest expected resonances, and the frequency up to which these lie, rad/s (collective).
+def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float, float | None]:
+    """Return the orders of the lowest expected resonances, the frequency up to which these lie, and that of the lowest
+    that is not sought, see `expected_frequencies`, rad/s (collective).
 
     Plates bend in all orders; from the second one on the lowest frequency rises with the order.
     """
     lowest: list[float] = []
     known: list[float] = []
+    beyond: float | None = None
     while True:
-        expected = bodies_at_infinite_frequency(problem.of_order(len(lowest))).frequencies()
+        expected, out = expected_frequencies(problem.of_order(len(lowest)), request)
         lowest.append(expected[0] if expected else inf)
         known = sorted([*known, *expected])[: request.count]
+        if out is not None:
+            beyond = min(out, beyond or inf)
         highest = ABOVE * known[-1] if request.below is None else request.below
-        if len(lowest) > LOWEST_BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
-            return [order for order, omega in enumerate(lowest) if omega < highest], highest
+        complete = request.below or len(known) == request.count or lowest[-1] == inf
+        if len(lowest) > LOWEST_BENT and lowest[-1] > highest and complete:
+            enough = len(known) == request.count and (beyond or inf) > known[-1]
+            return [order for order, omega in enumerate(lowest) if omega < highest], highest, None if enough else beyond
 
 
 def _joined_region(regions: list[Region]) -> Region | None:

@@ -229,8 +229,14 @@ def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
     """Yield messages on why resonances of a region may be missing."""
     counted = solution.table.counted
     if counted is None:
-        yield "the independent count of the resonances is not certain: one may lie on the boundary of its region"
+        yield (
+            "the independent count of the resonances is not certain, as one may lie on the boundary of its region: "
+            "change count, below or largest_damping a little"
+        )
     elif counted != solution.known:
-        yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
+        yield (
+            f"an independent count finds {counted} resonances in the region, and {solution.known} are known, so that "
+            "the list may miss some: ask for a smaller tolerance, a smaller largest_damping, or those below a frequency"
+        )
     if solution.unstable:
         yield "a float is unstable: its motion grows, and is none of the resonances"

@@ -390,6 +390,8 @@ RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
         variable="resonance_residual", column="residual"),
     Quantity("counted", "number of resonances in the region by an independent count", "1", note="`null` if not"),
     Quantity("region", "region of ω in which they were counted", value=lambda table: region_words(table.region)),
+    Quantity("not_sought", "frequency of the lowest elastic tone that was not sought, as its waves are far shorter "
+        "than the body; `below` has it sought", "rad/s", note="`null` if all were sought"),
 ), dimension="resonance_analysis", note=NUMBERED)
 DECAY = Group("decay", "motion after release, by analysis", (
     DECAY_TIMES := joined_array("times", "time after release", "time", unit="s", symbol="t", shown=".6g",

@@ -33,6 +33,8 @@ IMPULSE_RESPONSE = Group("impulse_response", "impulse responses of radiation, by
         short="causality error", shown=".1e"),
     joined_array("ogilvie_error", "difference of the added mass at infinite frequency by Ogilvie's relation and by its "
         "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e"),
+    joined_array("impulse_response_error", "estimated error of the impulse responses, relative to their values at "
+        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error"),
     IMPULSE_ERROR := joined_array("relative_error", "estimated relative error of the impulse responses", "", unit="1",
         shown=".1e", variable="impulse_relative_error"),
 ), dimension="impulse_response_analysis", note=NUMBERED)

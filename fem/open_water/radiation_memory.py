@@ -72,8 +72,8 @@ _ROUNDING = 1e-9
 # The mesh's highest frequency over that of waves as short as the bodies, by which it grows while what is beyond it is not
 # known, and the number of times.
 _ABOVE, _MOST_RAISES = 1.5, 2
-# Part of the tolerance that is left to what is beyond it.
-_TAIL = 0.5
+# Part of the tolerance of K(0) that is left to what is beyond it; as much is left to what is below.
+_TAIL = 0.4
 # Frequencies over the highest one at which exponentials beyond the ray are fitted, but for those that are as near to a
 # resonance; frequencies of these exponentials, and error of H in the fit over the tolerance.
 _FITTED, _CLEAR = np.geomspace(1e-3, 1.0, 150), 0.01
@@ -84,7 +84,7 @@ _PHASES = 0.05
 # Where the tangent at the end of an arc is taken, of its length.
 _BESIDE_END = 1e-6
 # Most that errors of H are lowered for K.
-_MOST_AMPLIFIED = 10.0
+_MOST_AMPLIFIED = 4.0
 # Frequencies over the highest one at which the sign of b is checked.
 _DAMPED = np.geomspace(1e-2, 30.0, 2000)
 # Lower end of the ray, as a multiple of 1/t.
@@ -280,7 +280,7 @@ def solve_memory(
         found = replace(found, error=causes_of_h.largest_total)
         needed = 1.0
         if earliest < inf:
-            needed = float(np.clip(_amplification(tail, np.diag(limit)).max(), 1.0, _MOST_AMPLIFIED))
+            needed = float(np.clip(2.0 * _amplification(tail, np.diag(limit)).max(), 1.0, _MOST_AMPLIFIED))
         return Attempt(result=found, causes=causes_of_h.scaled(needed), resolution=resolution)
 
     attempt = best_over_band(problem, band, partial(solve, band))

@@ -249,9 +249,9 @@ def damping_tail(
     factor = ratios / (1.0 - ratios)
     within, beyond = 2.0 / pi * integrals[-1], 2.0 / pi * np.sqrt(np.outer(factor, factor)) * halves[-1]
     sizes = np.maximum(np.diag(within + beyond), negligible)
-    # The same from half an octave less.
+    # The same from half an octave less was off by this, and it converges as fast as B decays.
     change = parts[-1] * (1.0 + factor) - parts[-2] * previous / (1.0 - previous)
-    doubt = np.abs(change) + np.where(ratios < _SLOWEST, _UNCERTAIN, 1.0) * factor * parts[-1]
+    doubt = np.abs(change) * np.minimum(factor, 1.0) + np.where(ratios < _SLOWEST, _UNCERTAIN, 1.0) * factor * parts[-1]
     return DampingTail(
         highest=highest,
         within=within,

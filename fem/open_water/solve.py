@@ -131,9 +131,7 @@ def solve_open_water(
             # Near a resonance errors of forces and of the memory are magnified in the motion.
             factor = max(_MARGIN * problem.tolerance / solution.error, _LEAST)
             moving = replace(problem, tolerance=factor * problem.tolerance, solvers={})
-            solution = min(
-                solution, _solved(moving, request, _memory(moving, latest, inf)), key=lambda one: one.error
-            )
+            solution = min(solution, _solved(moving, request, _memory(moving, latest, inf)), key=lambda one: one.error)
         # The tables alone: a model holds its mesh and matrices.
         tables.append(solution.table)
         if solution.model is not None and solution.model.pencil.size > size["dofs"]:
@@ -226,9 +224,9 @@ def _impulse_response_reasons(tolerance: float, analysis: str, solution: Impulse
     if poor.any():
         largest, times = table.impulse_response_error.max(), table.times[poor]
         yield (
-            f"{analysis}: K from t = {times.min():.4g} to {times.max():.4g} s has an estimated error of {largest:.1e} of "
-            f"K(0) = (2/π) ∫ B dω, above the tolerance {tolerance:g}: the damping B above {solution.highest:.4g} rad/s is "
-            f"not known well enough; {kept_tolerance(float(largest))}"
+            f"{analysis}: K from t = {times.min():.4g} to {times.max():.4g} s has an estimated error of {largest:.1e} "
+            f"of K(0) = (2/π) ∫ B dω, above the tolerance {tolerance:g}: the damping B above "
+            f"{solution.highest:.4g} rad/s is not known well enough; {kept_tolerance(float(largest))}"
         )
 
 

@@ -201,7 +201,9 @@ class RadiationMemory:
                 (np.eye(2 * count, 2 * count + 1), np.zeros(2 * count), 1.0),
                 (np.eye(1, 2 * count + 1, 2 * count), np.zeros(1), errors[1] * whole),
             ]
-            matrix, wanted = (np.concatenate(parts) for parts in zip(*((a / e, b / e) for a, b, e in rows), strict=True))
+            matrix, wanted = (
+                np.concatenate(parts) for parts in zip(*((a / e, b / e) for a, b, e in rows), strict=True)
+            )
             found[:, i, j] = scale * np.linalg.lstsq(matrix, wanted, rcond=None)[0]
         return RadiationMemory(
             infinite_frequency_added_mass=self.infinite_frequency_added_mass + found[-1] / unit**2,
@@ -227,9 +229,9 @@ def damping_tail(
         least_powers: q of the hulls, shape (m,).
         has_peaks: whether resonances of the water go on beyond Ω.
     """
-    places, weights = np.polynomial.legendre.leggauss(_POINTS)
-    places = 0.5 * (places + 1.0)
-    angles, weights = 0.5 * pi * places**2, 0.5 * pi * places * weights
+    nodes, gauss = np.polynomial.legendre.leggauss(_POINTS)
+    places = 0.5 * (nodes + 1.0)
+    angles, weights = 0.5 * pi * places**2, 0.5 * pi * places * gauss
 
     def integral(omega: float) -> Floats:
         along = omega * np.exp(1j * angles)
@@ -251,7 +253,9 @@ def damping_tail(
     sizes = np.maximum(np.diag(within + beyond), negligible)
     # The same from half an octave less was off by this, and it converges as fast as B decays.
     change = parts[-1] * (1.0 + factor) - parts[-2] * previous / (1.0 - previous)
-    doubt = np.abs(change) * np.minimum(factor, 1.0) + np.where(ratios < _SLOWEST, _UNCERTAIN, 1.0) * factor * parts[-1]
+    doubt: Floats = (
+        np.abs(change) * np.minimum(factor, 1.0) + np.where(ratios < _SLOWEST, _UNCERTAIN, 1.0) * factor * parts[-1]
+    )
     return DampingTail(
         highest=highest,
         within=within,

@@ -56,7 +56,7 @@ class MotionTable:
         wave_phase: (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body.
         ramp: time in which the waves grow, s.
         initial: (m,) displacement at t = 0, m or rad.
-        elevation: (n,) m, there, without the bodies.
+        elevation: (n,) m, there, without the bodies, as the waves grow.
         displacement: (n, m) m or rad.
         velocity: (n, m) m/s or rad/s.
         steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear

@@ -50,8 +50,8 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
         note="its crest passes the middle of the first body at t = phase/ω"),
     Quantity("ramp", "time in which the waves grow", "s", variable=""),
     joined_array("initial", "displacement at t = 0", "dof", variable="motion_initial", **_MOTION),
-    ELEVATION := joined_array("elevation", "elevation of the incident waves, which grow with the ramp, at the middle of the first "
-        "body",
+    ELEVATION := joined_array("elevation", "elevation of the incident waves, grown by the ramp, at the "
+        "middle of the first body",
         "motion_time", unit="m", symbol="η", shown=".4g", variable="wave_elevation"),
     MOTION_DISPLACEMENT := joined_array("displacement", "motion in waves", "motion_time dof",
         variable="motion_displacement", column="", shown=".5g", **_MOTION),

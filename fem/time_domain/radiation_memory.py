@@ -235,8 +235,8 @@ def damping_tail(
 
     def integral(omega: float) -> Floats:
         along = omega * np.exp(1j * angles)
-        found: Floats = -np.tensordot(1j * along**2 * weights, hydrodynamic(along), axes=1).imag
-        return found
+        summed = np.tensordot(1j * along**2 * weights, hydrodynamic(along), axes=1)
+        return -np.asarray(summed.imag, dtype=float)
 
     integrals = [integral(highest * 2.0 ** (0.5 * half)) for half in (-3, -2, -1, 0)]
     halves = np.diff(np.array(integrals), axis=0)

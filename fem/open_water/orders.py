@@ -337,9 +337,11 @@ def _solve_impulse_response(
         radiation_damping=matrices("radiation_damping"),
         causality_error=np.max([table.causality_error for table in tables], axis=0),
         ogilvie_error=np.max([table.ogilvie_error for table in tables], axis=0),
+        impulse_response_error=np.max([table.impulse_response_error for table in tables], axis=0),
         relative_error=max(table.relative_error for table in tables),
     )
-    return replace(_largest(found), table=table, error=_error(found))
+    highest = min(one.highest for one in found)
+    return replace(_largest(found), table=table, error=_error(found), highest=highest)
 
 
 def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Memory) -> MotionSolution:

@@ -18,6 +18,10 @@ The names below are imported when they are first used: ``import hydroelastic`` i
 
 from typing import TYPE_CHECKING, Any
 
+from hydroelastic.meshes.session_folder import remove_session_folder
+
+remove_session_folder()
+
 if TYPE_CHECKING:
     from hydroelastic.output.pictures.options import PictureOptions
     from hydroelastic.scenes.errors import SceneError, UnsolvedError

@@ -55,8 +55,7 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
         yield
         return
     folder = cache_folder()
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / _LOCK).open("a+", encoding="ascii") as lock:
+    with _written(folder), (folder / _LOCK).open("a+", encoding="ascii") as lock:
         with suppress(OSError):  # Some network file systems have no locks: dolfinx then waits as it always does.
             fcntl.flock(lock, fcntl.LOCK_EX)
             lock.seek(0)
@@ -68,6 +67,17 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
             yield
         finally:
             lock.truncate(0)
+
+
+@contextmanager
+def _written(folder: Path) -> Iterator[None]:
+    """Name the cache in errors of the system."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield
+    except OSError as error:
+        wrong = f"the cache of compiled kernels cannot be written ({error.strerror}); set XDG_CACHE_HOME to another one"
+        raise OSError(error.errno, wrong, str(folder)) from error
 
 
 def _remove_damaged(folder: Path, *, killed: bool) -> None:

@@ -41,12 +41,15 @@ _SLOWEST_DECAY = 0.75
 _AT_ONCE, _MANY = 64, 10
 
 
-def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
+def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], exponents: np.ndarray | None = None) -> np.ndarray:
     """Estimate (λ_h − λ)/λ of modes at unit generalized mass, cell by cell.
 
     Args:
         liquid: space of ψ, of degree `LOWEST_DEGREE` or more, on simplices.
         potentials: ψ of each mode.
+        exponents: α of the owned cells that touch a corner with ψ ~ r^α, infinite elsewhere, shape (cells,). There the
+            s_k fall like k^{−(4α + 1)} in the end, which a smooth part hides from the degrees that are seen: what is
+            missing is p/(4α) times the last one at least.
 
     Returns:
         The part of each owned cell, shape (modes, cells); their sum over all cells and processes is the estimate.
@@ -61,7 +64,11 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
     if not potentials:
         return np.empty((0, len(cells)))
     energies = _straight_energies(liquid) if is_straight(mesh) else _curved_energies(liquid)
-    errors: np.ndarray = liquid.energy_densities() * missing_energy(*energies(cell_values(liquid, potentials)))
+    of_degrees = energies(cell_values(liquid, potentials))
+    missing = missing_energy(*of_degrees)
+    if exponents is not None:
+        missing = np.maximum(missing, _CONTINUITY * liquid.degree / (4.0 * exponents) * of_degrees[0])
+    errors: np.ndarray = liquid.energy_densities() * missing
     return errors
 
 

@@ -101,6 +101,7 @@ command_env() {
     print "way          $text"
     inside python - <<'END'
 import importlib.metadata as metadata, platform
+import hydroelastic  # with it MPI leaves no folder
 from petsc4py import PETSc
 print(f"python       {platform.python_version()}")
 for name in ("fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "vtk", "hydroelastic"):

@@ -50,8 +50,8 @@ def add_hulls(floats: dict[str, SolidFloat]) -> dict[str, list[int]]:
     except Exception as error:  # gmsh raises bare Exception
         files = ", ".join(str(solid.hull.file) for solid in floats.values() if solid.hull)
         raise MeshError(
-            f"the surface in {files} cannot be parametrized ({error}): give it as a solid (*.step), or mend and "
-            "coarsen its triangles"
+            f"the surface in {files} cannot be parametrized: give it as a solid (*.step), or mend and coarsen its "
+            "triangles"
         ) from error
     found: dict[str, list[int]] = {name: [] for name in floats}
     for _, tag in gmsh.model.getEntities(2):

@@ -12,6 +12,9 @@ def start() -> None:
     end_on_interrupt()
     # Else it reads the metadata of every installed package.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    # It would make a folder for preferences in the home folder.
+    cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    os.environ.setdefault("MPLCONFIGDIR", os.path.join(cache, "matplotlib"))
     # Its handlers would turn the end of `| head` into a report of a crash.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".lstrip()
     from hydroelastic.scenes.command_line import main

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NoReturn
@@ -37,7 +38,7 @@ from hydroelastic.scenes.command_parts import (
     folder_of_results,
     is_first_rank,
 )
-from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.errors import SceneError, UnsolvedError, printable
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
@@ -48,6 +49,7 @@ from hydroelastic.scenes.sweep.command import sweep
 BAD_INPUT = 2
 INTERRUPTED = 130
 _SECONDS_TO_END = 10
+_PRINTING = ("click", "rich")
 
 
 class _BadInput(click.ClickException):
@@ -71,9 +73,9 @@ class _Commands(click.Group):
                 return super().main(*arguments, **{"prog_name": PROGRAM} | settings)
             except OSError as error:
                 # Others than the first process print nothing.
-                if error.filename is not None or not is_first_rank():
+                if not is_first_rank():
                     raise
-                _end_without_output(error)
+                _end_after_system_error(error)
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
@@ -84,9 +86,15 @@ class _Commands(click.Group):
             raise _Unsolved(str(error)) from error
 
 
-def _end_without_output(error: OSError) -> NoReturn:
-    """End the process with a message, because the output cannot be written, for example to a full disk."""
-    click.echo(f"Error: nothing can be printed: {error.strerror}. Redirect the output, or use --quiet.", err=True)
+def _end_after_system_error(error: OSError) -> NoReturn:
+    """End the process with a message, because a file or the output cannot be written, for example on a full disk."""
+    *_, (frame, _) = traceback.walk_tb(error.__traceback__)
+    if error.filename is None and frame.f_globals["__name__"].partition(".")[0] in _PRINTING:
+        words = f"nothing can be printed: {error.strerror}. Redirect the output, or use --quiet."
+    else:
+        place = "a file" if error.filename is None else os.fsdecode(error.filename)
+        words = f"{place}: {error.strerror or error}. Check that its folder is there, can be written, and has room."
+    click.echo(f"Error: {printable(words)}", err=True)
     # The interpreter flushes once more when it ends, and would complain.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(BAD_INPUT)

@@ -32,6 +32,41 @@ class Change:
     option: str = "--set"
 
 
+MOST_NESTED = 20
+"""Tables and lists within each other in a scene: no key of any kind is as deep."""
+
+# Of names that are joined by dots, in a key: the reader of TOML takes memory like the square of their number.
+_MOST_NAMES = 100
+_NAME = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?<![\w-]){_NAME}(?:[ \t]*\.[ \t]*{_NAME}){{{_MOST_NAMES},}}")
+TOO_DEEP = "its tables and lists are nested too deeply"
+
+
+def parsed_toml(text: str) -> Document:
+    """Return the content of a text of TOML.
+
+    Raises:
+        ValueError: if it is no TOML, or nested too deeply.
+    """
+    if _LONG_KEY.search(text):
+        raise ValueError(TOO_DEEP)
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError(TOO_DEEP) from None
+
+
+def is_too_deep(value: Any) -> bool:
+    """Whether tables and lists of a value are nested more deeply than `MOST_NESTED`."""
+    level = [value]
+    for _ in range(MOST_NESTED):
+        entries = [
+            one.values() if isinstance(one, dict) else one for one in level if isinstance(one, dict | list | tuple)
+        ]
+        level = [entry for some in entries for entry in some]
+    return any(isinstance(one, dict | list | tuple) for one in level)
+
+
 def changes_of(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[Change]:
     """Yield the changes of texts key=value, or of values by their keys.
 
@@ -40,6 +75,8 @@ def changes_of(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[Change]
     """
     if isinstance(overrides, Mapping):
         for key, value in overrides.items():
+            if is_too_deep(value):
+                raise SceneError(Problem(key=str(key), wrong=TOO_DEEP))
             new = plain(value)
             yield Change(key=str(key), value=new, text=f"{key} = {shown_value(new) or '…'}", option="change")
         return
@@ -48,6 +85,8 @@ def changes_of(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[Change]
         change = Change(key=key, value=None, text=text)
         if not equals or not all(name.strip() for name in key.split(".")):
             raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
+        if key.count(".") > MOST_NESTED:
+            raise _bad_override(change, "the key has too many names", allowed=f"up to {MOST_NESTED}")
         yield replace(change, value=_override_value(change, value.strip()))
 
 
@@ -84,10 +123,10 @@ _BARE_TEXT = re.compile(r"[^\W\d][^\"'=\[\]{}\n]*|[./~][^\"'=\[\]{}\n]*")
 
 def _override_value(change: Change, text: str) -> Any:
     try:
-        parsed = tomllib.loads(f"value = {text}")
+        parsed = parsed_toml(f"value = {text}")
         if list(parsed) == ["value"]:  # a line break in the text would start another key
             return parsed["value"]
-    except (ValueError, RecursionError):
+    except ValueError:
         # A text that is nearly a number is refused later by validation, where the allowed values are known.
         if _BARE_TEXT.fullmatch(text) or how_to_write(text):
             return text

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import re
 import sys
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write_line
-from hydroelastic.scenes.overrides import Document, changes_of, override
+from hydroelastic.scenes.overrides import TOO_DEEP, Document, changes_of, is_too_deep, override, parsed_toml
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.validation_errors import scene_error
 from hydroelastic.scenes.words import nearest, proposal
@@ -152,10 +151,12 @@ class SceneSource:
     Attributes:
         document: its tables and values.
         file: where it was read; ``None`` if it was made in Python.
+        folder: to which the paths of files that it names are relative; ``None`` is the current one.
     """
 
     document: Document
     file: Path | None
+    folder: Path | None = None
 
     def scene(self, *overrides: Iterable[str] | Mapping[str, Any]) -> Scene:
         """Return the scene with replacements, see `read_scene`; later ones come after earlier ones.
@@ -163,15 +164,19 @@ class SceneSource:
         Raises:
             SceneError: if an override or a value is invalid.
         """
+        label = _label(self.file) if self.file is not None else "the scene"
+        if is_too_deep(self.document):
+            raise SceneError(Problem(wrong=f"it is not a scene: {TOO_DEEP}"), file=label)
         document = deepcopy(self.document)
         changes = tuple(change for some in overrides for change in changes_of(some))
         for change in changes:
             override(document, change)
-        label = _label(self.file) if self.file is not None else "the scene"
         if changes:
             label += f" with {' '.join(f'{change.option} {change.text}' for change in changes)}"
         model = _model_of(document, label)
-        context = {"folder": self.file.parent, "source": label} if self.file is not None else None
+        context: dict[str, Any] | None = None if self.folder is None else {"folder": self.folder}
+        if self.file is not None:
+            context = {"folder": self.file.parent, "source": label}
         try:
             scene = model.model_validate(document, context=context)
         except ValidationError as error:
@@ -194,8 +199,12 @@ def scene_source(scene: Scene | str | Path | Mapping[str, Any]) -> SceneSource:
     if not isinstance(scene, Mapping) and not is_scene(scene):
         allowed = "a scene, the name of a shipped scene, a file, or a dictionary with the keys of a file"
         raise SceneError(Problem(key="scene", value=repr(scene)[:60], wrong="it is not a scene", allowed=allowed))
+    if isinstance(scene, Mapping):
+        if is_too_deep(dict(scene)):
+            raise SceneError(Problem(key="scene", wrong=TOO_DEEP))
+        return SceneSource(document=_as_read(dict(scene)), file=None)
     # The dictionary of a scene would have what was computed of it, too.
-    return SceneSource(document=_as_read(scene if is_scene(scene) else dict(scene)), file=None)
+    return SceneSource(document=_as_read(scene), file=None, folder=scene.folder)
 
 
 def is_scene(value: Any) -> bool:
@@ -252,7 +261,7 @@ def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
 def _parse(file: Path) -> Document:
     try:
         # One byte more tells that there are too many.
-        piped = sys.stdin.buffer.read(MOST_BYTES + 1) if file == STANDARD_INPUT else None
+        piped = _piped() if file == STANDARD_INPUT else None
         size = file.stat().st_size if piped is None else len(piped)
         if size > MOST_BYTES:
             wrong = f"it is {size / 1e6:.3g} MB large, and a scene takes {MOST_BYTES / 1e6:g} MB at most"
@@ -262,18 +271,26 @@ def _parse(file: Path) -> Document:
         raise _unusable(file, f"it cannot be read ({error.strerror})") from error
     try:
         # Some editors put a byte order mark in front.
-        document = tomllib.loads(content.decode("utf-8-sig"))
+        document = parsed_toml(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise _unusable(file, f"it is not UTF-8 text (line {line})", "Save it as UTF-8") from error
-    except RecursionError as error:
-        raise _unusable(file, "it is not a scene: its lists are nested too deeply") from error
     except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
+        if str(error) == TOO_DEEP:
+            raise _unusable(file, f"it is not a scene: {TOO_DEEP}") from error
         wrong = f"it is not TOML: {_uncapitalised(str(error))}"
         raise _unusable(file, wrong, _mended_line(content.decode("utf-8-sig"), str(error))) from error
     if not document:
         raise _unusable(file, "it is empty", f"A scene begins with {_known_kinds()}")
     return document
+
+
+def _piped() -> bytes:
+    if sys.stdin is None or sys.stdin.closed:
+        raise _unusable(STANDARD_INPUT, "it is closed", "Pipe a scene into the command, or name its file")
+    if sys.stdin.isatty():
+        raise _unusable(STANDARD_INPUT, "it is a terminal", "Pipe a scene into the command, or name its file")
+    return sys.stdin.buffer.read(MOST_BYTES + 1)
 
 
 def _label(file: Path) -> str:

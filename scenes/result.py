@@ -202,15 +202,19 @@ def load(folder: str | Path) -> Result:
     Raises:
         SceneError: if it is no such folder.
     """
-    folder = Path(folder)
     try:
+        folder = Path(folder)
         dataset, summary = read_dataset(folder / DATASET)
         sections, cost = read_markdown_sections((folder / TABLES).read_text(encoding="utf-8"))
-    except (OSError, LookupError, TypeError, ValueError) as error:
-        wrong = f"it cannot be read ({getattr(error, 'strerror', None) or error})"
+        result = Result(scene=None, summary=summary, sections=sections, cost=cost)
+        # What every result has: another program's summary lacks it.
+        _ = repr(result), result.modes, result._repr_html_()
+    except (OSError, LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
+        wrong = f"its {DATASET} or {TABLES} is damaged, or is not that of a solved scene"
+        if isinstance(error, OSError) and error.strerror:
+            wrong = f"it cannot be read ({error.strerror})"
         remedy = "Name a folder that the command run or Result.save has written"
         raise SceneError(Problem(key=f"result folder {folder}", wrong=wrong, remedy=remedy)) from error
-    result = Result(scene=None, summary=summary, sections=sections, cost=cost)
     # In place of the cached properties that the solution would give.
     vars(result).update(dataset=dataset, pictures=_pictures_in(folder))
     return result

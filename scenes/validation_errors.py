@@ -14,6 +14,15 @@ from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.number_texts import how_to_write
 from hydroelastic.scenes.words import nearest, proposal
 
+# What the open sea does not have yet; of bodies the shapes that tanks in three dimensions have.
+_HULLS = ("box", "hull")
+_NO_HULLS = (
+    "In the open sea bodies are sections per metre of width, or solids of revolution about one vertical axis: hulls of "
+    "other shapes are not modelled there, only in tanks of three dimensions ([tank] with a width)"
+)
+_HEADINGS = ("heading", "headings", "wave_heading", "wave_direction", "direction", "wave_angle", "angle", "beta")
+_NO_HEADINGS = 'Waves travel along x, waves_from = "left" or "right": other headings are not modelled'
+
 Location: TypeAlias = tuple[str | int, ...]
 """The way to a value as the reader of the file sees it: ``("body", 0, "start")``."""
 
@@ -158,7 +167,13 @@ def _unknown_key(place: _Place, detail: Any, root: type[BaseModel]) -> Problem:
         value=shown_value(value),
         wrong="it is not known here",
         allowed=", ".join(known),
-        remedy=f'It belongs to kind = "{owners[0]}"' if owners else proposal(name, known),
+        remedy=(
+            _NO_HEADINGS
+            if name in _HEADINGS and _kind(root) in ("sea", "tank")
+            else f'It belongs to kind = "{owners[0]}"'
+            if owners
+            else proposal(name, known)
+        ),
     )
 
 
@@ -171,6 +186,8 @@ def _proposed_location(detail: Any, root: type[BaseModel]) -> Location | None:
 
 
 def _remedy(kind: str, place: _Place, value: object) -> str:
+    if kind == "literal_error" and place.location[-1] == "shape" and value in _HULLS:
+        return _NO_HULLS
     if kind == "literal_error" and place.field is not None:
         return proposal(str(value), map(str, get_args(_value_type(place.field)[0])))
     if kind in ("float_type", "int_type", "bool_type") and isinstance(value, str):

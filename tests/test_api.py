@@ -338,7 +338,7 @@ def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None
         he.solve("swell").save(tmp_path)
     assert [file.name for file in tmp_path.iterdir()] == ["mine.txt"]
     (tmp_path / "dataset.nc").write_text("no NetCDF")
-    with pytest.raises(he.SceneError, match="it cannot be read"):
+    with pytest.raises(he.SceneError, match="is damaged"):
         he.load(tmp_path)
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from hydroelastic.fem.time_domain.motion import MovingBodies, UnsolvedMotionError, WaveForces
-from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
+from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, damping_tail, memory_on_ray, ray_radii
 from hydroelastic.physics.attachments import OutsideForces
 
 # K̂ = C p/(p² + 2γp + ω₀²), so that K = C e^{−γt} (cos νt − (γ/ν) sin νt), ν² = ω₀² − γ².
@@ -23,10 +23,9 @@ def beyond_limit(p: np.ndarray) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def memory() -> RadiationMemory:
-    radii = ray_radii(1e-6, 1e6, ANGLE, 1e-10)
+    radii = ray_radii(1e-6, 1e14, ANGLE, 1e-10)
     p = -1j * radii * np.exp(-1j * ANGLE)
-    start = np.array([[STRENGTH]])
-    return memory_on_ray(beyond_limit(p)[:, None, None], LIMIT, radii, ANGLE, start=start, quickest=3.0, **NO_POLES)
+    return memory_on_ray(beyond_limit(p)[:, None, None], LIMIT, radii, ANGLE, **NO_POLES)
 
 
 def test_poles_before_the_ray_are_exponentials_of_their_own() -> None:
@@ -47,30 +46,36 @@ def test_poles_before_the_ray_are_exponentials_of_their_own() -> None:
         LIMIT,
         radii,
         ANGLE,
-        start=np.array([[STRENGTH]]),
-        quickest=3.0,
         poles=np.array([pole]),
         residues=residues,
     )
     times = np.linspace(0.1, 12.0, 40)
     known = STRENGTH * np.exp(-damping * times) * (np.cos(nu * times) - damping / nu * np.sin(nu * times))
-    # The rule's 1e-10; K(0) = C has the error of the cut end of the ray.
+    # The rule's 1e-10, and the cut end of the ray.
     np.testing.assert_allclose(found.impulse_response(times)[:, 0, 0], known, atol=1e-8)
 
 
-def test_what_faster_oscillations_add_is_fitted(memory: RadiationMemory) -> None:
-    """Two oscillations above the frequencies of H, as of narrow water: a and b come back between those of the fit."""
+def test_what_is_beyond_the_ray_is_fitted() -> None:
+    """A ray that ends at the highest frequency, of the same oscillator, whose damping falls like ω⁻²."""
+    highest = 8.0
+    radii = highest / ray_radii(1.0, 1e8, ANGLE, 1e-10)[::-1]
+    p = -1j * radii * np.exp(-1j * ANGLE)
+    ray = memory_on_ray(beyond_limit(p)[:, None, None], LIMIT, radii, ANGLE, **NO_POLES)
 
-    def whole(omega: np.ndarray) -> np.ndarray:
-        faster = 0.1 / (3.3**2 - omega**2) + 0.05 / (5.0**2 - omega**2)
-        return LIMIT + (beyond_limit(-1j * omega) + faster)[:, None, None]
+    def hydrodynamic(omega: np.ndarray) -> np.ndarray:
+        return np.asarray(LIMIT + beyond_limit(-1j * omega)[:, None, None])
 
-    fitted, others = np.geomspace(0.01, 3.0, 60), np.geomspace(0.013, 2.9, 23)
-    rates = (1j - 1e-3) * 3.0 * (1.0 + np.geomspace(0.03, 20.0, 12))
-    found = memory.completed(fitted, whole(fitted), rates).hydrodynamic(others)
-    assert np.abs(memory.hydrodynamic(others) - whole(others)).max() > 1e-2
-    # The rule's 1e-10 at both ends of the ray, and that of 12 exponentials.
-    np.testing.assert_allclose(found, whole(others), atol=1e-6)
+    tail = damping_tail(hydrodynamic, highest, np.array([1e-9]), np.array([2.0]), has_peaks=False)
+    # K(0) = C, of which what is beyond the highest frequency is C (2/π) 2γ/ω or 10 %.
+    assert tail.beyond[0, 0] > 0.05 * STRENGTH
+    assert abs(tail.start[0, 0] - STRENGTH) < tail.error[0] * STRENGTH < 0.02 * STRENGTH
+    fitted, others = np.geomspace(0.01, highest, 100), np.geomspace(0.013, 0.9 * highest, 23)
+    rates = 1j * np.exp(1j * ANGLE) * highest * np.exp(np.arange(np.log(0.5), np.log(60.0), 0.1))
+    found = ray.completed(fitted, hydrodynamic(fitted), rates, tail, (1e-6, 1e-3))
+    assert np.abs(ray.hydrodynamic(others) - hydrodynamic(others)).max() > 1e-3
+    # The error of H in the fit, ten times at the ends.
+    np.testing.assert_allclose(found.hydrodynamic(others), hydrodynamic(others), atol=1e-5)
+    assert abs(found.impulse_response(np.zeros(1))[0, 0, 0] - STRENGTH) < tail.error[0] * STRENGTH
 
 
 def test_added_mass_and_damping_come_back(memory: RadiationMemory) -> None:
@@ -82,10 +87,10 @@ def test_added_mass_and_damping_come_back(memory: RadiationMemory) -> None:
 
 
 def test_impulse_response_is_the_closed_form(memory: RadiationMemory) -> None:
-    times = np.linspace(0.0, 12.0, 40)
+    # K(0) is that of the ray without its end.
+    times = np.linspace(0.1, 12.0, 40)
     nu = np.sqrt(NATURAL**2 - GAMMA**2)
     exact = STRENGTH * np.exp(-GAMMA * times) * (np.cos(nu * times) - GAMMA / nu * np.sin(nu * times))
-    # At t = 0 the cut end of the ray is not damped by e^{pt}.
     np.testing.assert_allclose(memory.impulse_response(times)[:, 0, 0], exact, rtol=0.0, atol=1e-5)
 
 

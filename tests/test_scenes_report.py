@@ -102,7 +102,13 @@ def test_an_answer_without_errors_says_so() -> None:
     summary = {
         "scene": {"kind": "tank", "tank": {"ends": "open"}, "body": []},
         **{kind: [] for kind in ("radiation", "decay", "spectrum", "impulse_response", "motion")},
-        "response": [{"waves": ["surface"], "reflection": [[[[0.3, 0.4]]]], "omega": [2.0], "relative_error": [None]}],
+        "response": [
+            {
+                "waves": ["surface"],
+                "largest": None,
+                "largest_reflection": {"value": [0.5], "omega": [2.0], "error": [None]},
+            },
+        ],
         "resonance": [{"omega": [[1.0, -0.1]], "relative_error": ["inf"]}],
     }
     assert [row[1:] for row in answer(summary).rows] == [("0.5", "unknown"), ("1", "unknown"), ("0.1", "unknown")]

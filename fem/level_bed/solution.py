@@ -90,18 +90,15 @@ class LevelMode:
 
     Attributes:
         problem: to which it belongs.
+        bodies: those whose amplitudes and energies the mode has.
         mode: with its shape, at unit generalized mass.
         relative_error: estimated, of ω.
     """
 
     problem: LevelProblem
+    bodies: tuple[Body, ...]
     mode: Mode
     relative_error: float
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        """The plates that move in its problem."""
-        return self.problem.pencil.bodies
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -114,6 +114,7 @@ def solve_level_tank(
         modes=tuple(
             LevelMode(
                 problem=found.orders[order],
+                bodies=found.orders[order].pencil.bodies,
                 mode=found.orders[order].modes.completed(place),
                 relative_error=float(error),
             )

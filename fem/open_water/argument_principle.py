@@ -19,14 +19,16 @@ from hydroelastic.fem.open_water.solver import OpenSolver
 
 Solver: TypeAlias = OpenSolver | DampedSolver
 
-# Points on the boundary at which the residual of the basis is computed, and initial points of the phase; multiples of
-# four.
-_JUDGED, _FIRST = 16, 64
+# Points on the boundary at which the residual of the basis is computed, of `damped` and else, and initial points of the
+# phase; multiples of four. Between bodies 60 m apart 16 points leave zeros in the region wrong.
+_JUDGED_DAMPED, _JUDGED, _FIRST = 16, 64, 64
 # Number of times that the distance between points may be halved, and the change of phase above which it is, radians.
-_HALVINGS = 8
+_HALVINGS = 14
 _TURN = 1.0
 # Change of 2k times the extent of the bodies between neighbouring points above which more points are needed, radians.
 _UNRESOLVED = 2.0
+# Largest distance between points over that from a zero or a pole.
+_CLOSE = 0.7
 # The winding number needs few digits of H; its error goes like the square of the residual.
 _RESIDUAL = 1e-2
 
@@ -43,11 +45,13 @@ def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> in
         The winding number of det D; ``None`` where its phase is not resolved.
     """
     _prepare(solver, boundary)
+    # Near a zero or a pole of det D its phase turns fast.
+    turning = np.zeros(0) if isinstance(solver, DampedSolver) else np.append(*solver.zeros_and_poles())
     places = 4.0 * np.arange(_FIRST) / _FIRST
     phases = _phases(solver, boundary(places))
     for _ in range(_HALVINGS):
         turns = np.angle(np.roll(phases, -1) / phases)
-        far = np.flatnonzero((np.abs(turns) > _TURN) | _unresolved(solver, boundary(places)))
+        far = np.flatnonzero((np.abs(turns) > _TURN) | _unresolved(solver, boundary(places), turning))
         if not len(far):
             return round(float(turns.sum() / (2.0 * np.pi)))
         added = 0.5 * (places + np.append(places[1:], 4.0))[far]
@@ -56,13 +60,16 @@ def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> in
     return None
 
 
-def _unresolved(solver: Solver, omegas: np.ndarray) -> np.ndarray:
-    """Whether the phase may turn by more than is seen from each point to the next, as waves do that grow along bodies.
+def _unresolved(solver: Solver, omegas: np.ndarray, turning: np.ndarray) -> np.ndarray:
+    """Whether the phase may turn by more than is seen from each point to the next: beside zeros and poles, and as waves
+    do that grow along bodies.
 
     H of `damped` has their squares. Thin floats may be many times as deep as the basin is long.
     """
     if isinstance(solver, OpenSolver):
-        return np.zeros(len(omegas), dtype=bool)
+        steps = np.abs(np.roll(omegas, -1) - omegas)
+        distances = np.abs(omegas[:, None] - turning).min(axis=1, initial=np.inf)
+        return np.asarray(steps > _CLOSE * np.minimum(distances, np.roll(distances, -1)))
     _, _, low, high = extent_of_bodies(solver.model.basin.tank)
     wavenumbers = np.array([solver.wavenumber(omega) for omega in omegas])
     changes = np.abs(np.roll(wavenumbers, -1) - wavenumbers)
@@ -72,7 +79,8 @@ def _unresolved(solver: Solver, omegas: np.ndarray) -> np.ndarray:
 
 def _prepare(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> None:
     """Extend the basis by solutions on the boundary until its residual is small enough there."""
-    points = boundary(4.0 * np.arange(_JUDGED) / _JUDGED)
+    judged = _JUDGED_DAMPED if isinstance(solver, DampedSolver) else _JUDGED
+    points = boundary(4.0 * np.arange(judged) / judged)
     squares = [solver.model.squared_frequency(omega) for omega in points]
     if not solver.basis_size:
         solver.radiation(squares[0])

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from math import log10, sqrt
 
 from hydroelastic.fem.open_water.decay import ray_band
+from hydroelastic.fem.open_water.field_model import Band
 from hydroelastic.fem.open_water.model_building import first_mesh, first_resolution
 from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.fem.open_water.resonance import ANGLE
+from hydroelastic.fem.tank.mesh import unknown_count
 from hydroelastic.physics.tank import Tank
 
 WITHIN = 3.0
@@ -57,9 +59,7 @@ def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCos
     band = ray_band(water, tolerance, request, expected)
     resolution = first_resolution(water, tolerance, band)
     mesh = first_mesh(water, tolerance, band, resolution, angle=ANGLE)
-    vertices, cells, degree = len(mesh.points), len(mesh.cells), resolution.degree
-    # Euler: a triangulation without holes has one edge less than vertices and cells together.
-    unknowns = vertices + (vertices + cells - 1) * (degree - 1) + cells * (degree - 1) * (degree - 2) // 2
+    unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)
     factorizations = round(_LEAST - _PER_DIGIT * log10(tolerance)) + _BESIDE
     return DecayCost(
         unknowns=unknowns,
@@ -67,3 +67,19 @@ def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCos
         seconds=_SECONDS * factorizations * (unknowns / _OF_UNKNOWNS) ** _GROWTH,
         memory=_LIBRARIES + _PER_UNKNOWN * unknowns,
     )
+
+
+def first_size(water: Tank, tolerance: float, band: Band) -> tuple[int, int, int]:
+    """Return cells, degree and unknowns of ψ of the first mesh for a range of frequencies, which gmsh makes.
+
+    Args:
+        water: open water in SI units, of one azimuthal order.
+        tolerance: largest relative error that is accepted.
+        band: the frequencies.
+
+    Raises:
+        MeshError: if no mesh can be made.
+    """
+    resolution = first_resolution(water, tolerance, band)
+    mesh = first_mesh(water, tolerance, band, resolution)
+    return len(mesh.cells), resolution.degree, unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)

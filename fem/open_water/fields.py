@@ -142,6 +142,7 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
     omegas = table.fields_at or (float(table.omega[row]),)
     model = _model(problem, min(omegas), max(omegas), motions=0)
     solver = OpenSolver(model, problem.watch)
+    solver.elevation = table.wave_amplitude
     for place, omega in enumerate(omegas, 1):
         name = f"response_{number}" + (f"_{place:03d}" if len(omegas) > 1 else "")
         yield _in_waves(solver, table, omega, wave, name)
@@ -152,7 +153,7 @@ def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int,
     model, count = solver.model, len(table.waves)
     place = wave + (0 if table.waves_from == "left" else count)
     found = solver.response(omega, [place])
-    incidence = found.incidence
+    incidence, drags = found.incidence, model.outside.drag
     # The crest of the incident wave passes x = 0 of the scene at t = 0.
     unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.phases_at_origin(model.basin)[place]))
     kind = f"{table.waves[wave]} waves" if count > 1 else "waves"
@@ -160,7 +161,7 @@ def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int,
     return OpenField(
         name=name,
         title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s{why}",
-        amplitude="incident wave of 1 m",
+        amplitude="incident wave of 1 m" + (f", damped as in one of {table.wave_amplitude:g} m" if len(drags) else ""),
         model=model,
         squared=found.squared,
         potential=unit * found.scattered[0],

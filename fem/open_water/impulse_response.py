@@ -19,17 +19,20 @@ class ImpulseResponseSolution:
     Attributes:
         table: the results in SI units.
         model: the last field model.
-        error: the largest relative error, that of causality among them.
+        error: the largest relative error of H, that of causality among them.
+        highest: the frequency beyond which damping is not solved for, rad/s.
     """
 
     table: ImpulseResponseTable
     model: OpenModel
     error: float
+    highest: float
 
 
 def solve_impulse_response(request: ImpulseResponseRequest, water: WaterMemory) -> ImpulseResponseSolution:
     """Return the impulse responses of radiation, by the memory of the water."""
     times = np.array(request.times)
+    errors = water.impulse_response_errors(times)
     table = ImpulseResponseTable(
         times=times,
         dofs=water.dofs,
@@ -40,8 +43,12 @@ def solve_impulse_response(request: ImpulseResponseRequest, water: WaterMemory) 
         radiation_damping=water.memory.radiation_damping(water.omega),
         causality_error=water.causality_error,
         ogilvie_error=water.ogilvie_error,
-        relative_error=water.error,
+        impulse_response_error=errors,
+        relative_error=max(water.error, float(errors.max())),
     )
     return ImpulseResponseSolution(
-        table=table, model=water.model, error=max(water.error, float(water.causality_error.max()))
+        table=table,
+        model=water.model,
+        error=max(water.error, float(water.causality_error.max())),
+        highest=water.tail.highest,
     )

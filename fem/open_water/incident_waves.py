@@ -61,6 +61,11 @@ class Plane:
         return elevation(self.wave)
 
     @property
+    def plane_elevation(self) -> float:
+        """Elevation of the plane wave that it is, for c = 1."""
+        return self.elevation
+
+    @property
     def power(self) -> float:
         """kN, its power over ½ω³|c|²."""
         return self.wave.wavenumber * self.wave.energy
@@ -112,6 +117,16 @@ class Circular:
         return elevation(self.wave)
 
     @property
+    def plane_elevation(self) -> float:
+        """Elevation of the plane wave that has it as its part, for c = 1: η̂/εₙ."""
+        return self.elevation / self._factor
+
+    @property
+    def _factor(self) -> float:
+        """εₙ."""
+        return 2.0 if self.geometry.order else 1.0
+
+    @property
     def power(self) -> float:
         """P, by which Im H = P |C|²."""
         return 2.0 / pi * self.geometry.measure * self.wave.energy
@@ -120,7 +135,7 @@ class Circular:
         """Return εₙ iⁿ of a plane wave towards +x (1), or of one towards −x (−1), with its phase at `phase_at`."""
         order, origin = self.geometry.order, basin.phase_at / basin.units.length
         phase = np.exp(-1j * direction * self.wave.wavenumber * origin)
-        return complex((1.0 if order == 0 else 2.0) * (direction * 1j) ** order * phase)
+        return complex(self._factor * (direction * 1j) ** order * phase)
 
 
 Wave: TypeAlias = Plane | Circular
@@ -196,6 +211,10 @@ class Incidence:
         wavenumbers = np.array([plane.wave.wavenumber for plane in self.planes])
         phases: np.ndarray = -np.array(directions) * wavenumbers * origin
         return phases
+
+    def heights(self, basin: OpenBasin, amplitude: float) -> np.ndarray:
+        """Return |c| of each wave that belongs to plane waves of an amplitude, m, shape (waves,)."""
+        return amplitude / basin.units.length / np.array([plane.plane_elevation for plane in self.planes])
 
     def plane_forces(self, basin: OpenBasin, values: np.ndarray) -> np.ndarray:
         """Forces per elevation of plane waves with phase 0 at x = 0 of the open water.

@@ -113,7 +113,9 @@ def open_model(
     )
 
 
-def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
+def first_mesh(
+    water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None = None
+) -> TaggedMesh:
     """Return the mesh of `open_model`, on the calling process.
 
     Args:
@@ -121,7 +123,7 @@ def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution
         tolerance: largest relative error that is accepted.
         band: the frequencies.
         resolution: resolution of the basin.
-        angle: angle α of the complex scaling, rad.
+        angle: angle α of the complex scaling, rad; by default that of the depth.
     """
     basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
     return open_mesh(basin, resolution, absorbing_layer)

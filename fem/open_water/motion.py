@@ -99,7 +99,7 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
             wave_phase=phase,
             ramp=request.ramp,
             initial=initial,
-            elevation=(turning @ waves).real,
+            elevation=forces.grown(times) * (turning @ waves).real,
             displacement=displacement,
             velocity=velocity,
             steady=(turning @ bodies.steady(forces)).real,

@@ -18,7 +18,6 @@ from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, drift_widths
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.incident_waves import direction_of
-from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
@@ -33,9 +32,9 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.resonance import ABOVE, ResonanceSolution, expected_frequencies, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, drawn, drawn_tolerance, solve_response
-from hydroelastic.fem.open_water.results import HullPressure, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import HullPressure, Largest, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.round_plates import OF_LOADS, along_diameter, joined, left_out, with_largest
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.physics.dofs import Dof, dof_names
@@ -201,8 +200,14 @@ def _response(problem: OpenWaterProblem, found: list[ResponseSolution]) -> Respo
         drift = direction_of(whole.waves_from) * drift.sum(axis=1)
         # The pair of the last order and the next, which scatters far less, is −|aₙ|².
         drift_error += widths * np.abs(waves[:, -1]) ** 2
+    parts = [(table.dofs, table.largest) for table in tables if table.largest is not None]
+
+    def largest(name: str) -> np.ndarray:
+        return _by_dof(whole.dofs, [(dofs, getattr(part, name)) for dofs, part in parts])
+
     return replace(
         whole,
+        largest=Largest(value=largest("value"), omega=largest("omega"), error=largest("error")),
         drift_force=drift[:, None],
         drift_error=drift_error[:, None],
         missed_peaks=tuple(peak for table in tables for peak in table.missed_peaks),
@@ -230,8 +235,9 @@ def _around(parts: list[HullPressure]) -> HullPressure:
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
     orders: Iterable[int] = problem.tank.orders
+    beyond: float | None = None
     if any(body.flexural_sections for body in problem.tank.bodies):
-        orders, highest = _bending_orders(problem, request)
+        orders, highest, beyond = _bending_orders(problem, request)
         request = replace(request, below=highest)
     found = [solve_resonance(problem.of_order(order), request) for order in orders]
     tables = [one.table for one in found]
@@ -250,6 +256,7 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
         relative_error=np.concatenate([one.relative_error for one in tables])[chosen],
         counted=None if None in counts else sum(count for count in counts if count is not None),
         region=_joined_region([one.region for one in tables if one.region is not None]),
+        not_sought=beyond,
     )
     return ResonanceSolution(
         table=table,
@@ -260,20 +267,26 @@ def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Re
     )
 
 
-def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float]:
-    """Return the orders of the lowest expected resonances, and the frequency up to which these lie, rad/s (collective).
+def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[int], float, float | None]:
+    """Return the orders of the lowest expected resonances, the frequency up to which these lie, and that of the lowest
+    that is not sought, see `expected_frequencies`, rad/s (collective).
 
     Plates bend in all orders; from the second one on the lowest frequency rises with the order.
     """
     lowest: list[float] = []
     known: list[float] = []
+    beyond: float | None = None
     while True:
-        expected = bodies_at_infinite_frequency(problem.of_order(len(lowest))).frequencies()
+        expected, out = expected_frequencies(problem.of_order(len(lowest)), request)
         lowest.append(expected[0] if expected else inf)
         known = sorted([*known, *expected])[: request.count]
+        if out is not None:
+            beyond = min(out, beyond or inf)
         highest = ABOVE * known[-1] if request.below is None else request.below
-        if len(lowest) > LOWEST_BENT and lowest[-1] > highest and (request.below or len(known) == request.count):
-            return [order for order, omega in enumerate(lowest) if omega < highest], highest
+        complete = request.below or len(known) == request.count or lowest[-1] == inf
+        if len(lowest) > LOWEST_BENT and lowest[-1] > highest and complete:
+            enough = len(known) == request.count and (beyond or inf) > known[-1]
+            return [order for order, omega in enumerate(lowest) if omega < highest], highest, None if enough else beyond
 
 
 def _joined_region(regions: list[Region]) -> Region | None:
@@ -324,9 +337,11 @@ def _solve_impulse_response(
         radiation_damping=matrices("radiation_damping"),
         causality_error=np.max([table.causality_error for table in tables], axis=0),
         ogilvie_error=np.max([table.ogilvie_error for table in tables], axis=0),
+        impulse_response_error=np.max([table.impulse_response_error for table in tables], axis=0),
         relative_error=max(table.relative_error for table in tables),
     )
-    return replace(_largest(found), table=table, error=_error(found))
+    highest = min(one.highest for one in found)
+    return replace(_largest(found), table=table, error=_error(found), highest=highest)
 
 
 def _solve_motion(problem: OpenWaterProblem, request: MotionRequest, memory: Memory) -> MotionSolution:

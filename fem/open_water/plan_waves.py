@@ -113,7 +113,7 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
     omegas = table.fields_at or (_of_largest_motion(table),)
     for place, omega in enumerate(omegas, 1):
         band = Band(lowest=omega, highest=omega)
-        radii, orders = _scattered(problem, band, table.partial_waves.shape[-1])
+        radii, orders = _scattered(problem, band, table.partial_waves.shape[-1], table.wave_amplitude)
         if problem.comm.rank:
             continue
         row = int(np.abs(table.omega - omega).argmin())
@@ -144,8 +144,9 @@ def _of_largest_motion(table: ResponseTable) -> float:
     return float(table.omega[np.argmax(sizes)])
 
 
-def _scattered(problem: OpenWaterProblem, band: Band, orders: int) -> tuple[np.ndarray, np.ndarray]:
-    """Radii, m, to two wavelengths beyond the bodies, and εₙ iⁿ λψₙ/η̂ of the orders there (collective)."""
+def _scattered(problem: OpenWaterProblem, band: Band, orders: int, amplitude: float) -> tuple[np.ndarray, np.ndarray]:
+    """Radii, m, to two wavelengths beyond the bodies, and εₙ iⁿ λψₙ/η̂ of the orders there, in waves of an amplitude, m,
+    on which the damping by drag depends (collective)."""
     wavenumber = band.wavenumbers(problem.tank)[1]
     reach = max(right for _, right in (body.waterplane for body in problem.tank.bodies))
     drawn = min(_RADIANS, _RADII * reach * wavenumber)
@@ -157,7 +158,9 @@ def _scattered(problem: OpenWaterProblem, band: Band, orders: int) -> tuple[np.n
         own = rough.of_order(order)
         resolution = first_resolution(own.tank, own.tolerance, band, drawn=drawn)
         model = open_model(own, band, resolution, drawn=drawn)
-        found = OpenSolver(model, problem.watch).response(band.lowest, [0])
+        solver = OpenSolver(model, problem.watch)
+        solver.elevation = amplitude
+        found = solver.response(band.lowest, [0])
         wave = found.incidence.planes[0]
         assert isinstance(wave, Circular)
         psi = found.squared * found.scattered[0] / wave.elevation

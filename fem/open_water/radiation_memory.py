@@ -1,26 +1,27 @@
 """The memory of the waves that bodies radiate: H along a ray of complex frequencies, as exponentials in time.
 
-H on a reduced basis of solutions on the ray and on the real axis, with the series `low_frequency` and `high_frequency`
-beyond the mesh, gives the exponentials of `fem/time_domain/radiation_memory.py`. Resonances of the water between bodies
-that lie between the real axis and the ray are exponentials of their own. H on the real axis, which does not enter
-these, tells the error: where H is analytic in between but for them, and a∞ of the problem with ψ = 0 on the free
-surface is its limit, both agree.
+H on a reduced basis of solutions on the ray and on the real axis, with the series `low_frequency` below the mesh, gives
+the exponentials of `fem/time_domain/radiation_memory.py`. Resonances of the water between bodies that lie between the
+real axis and the ray are exponentials of their own. H on the real axis, K(0) = (2/π) ∫ b dω and b, which is not
+negative, tell the error: where H is analytic in between but for them, and a∞ of the problem with ψ = 0 on the free
+surface is its limit, all agree. The band of the mesh grows until what is beyond it is known, if it may be.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
-from math import pi, sqrt
+from math import acos, inf, pi, sqrt
 from typing import TypeAlias
 
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, Band, OpenModel
-from hydroelastic.fem.open_water.high_frequency import arc, high_frequency_series, highest_meshed_frequency
+from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, NO_WATER, Band, OpenModel
+from hydroelastic.fem.open_water.high_frequency import arc, highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
 from hydroelastic.fem.open_water.low_frequency import (
     has_low_frequency_series,
@@ -39,7 +40,14 @@ from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
+from hydroelastic.fem.time_domain.radiation_memory import (
+    DampingTail,
+    RadiationMemory,
+    damping_tail,
+    memory_on_ray,
+    ray_radii,
+)
+from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
 
@@ -61,12 +69,26 @@ _STILL, _ROUNDS = 1e-3, 5
 _WIDE = 0.15
 # Angle between points of one ray, rad.
 _ROUNDING = 1e-9
-# Frequencies over the highest one of the mesh at which exponentials for the resonances above it are fitted, but for
-# those that are as near to a resonance; frequencies and loss of these exponentials.
-_FITTED, _CLEAR = np.geomspace(1e-3, 1.0, 120), 0.01
-_FASTER, _LOSS = 1.0 + np.geomspace(0.03, 20.0, 12), 1e-3
-# Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.
-_LOWER, _HIGHER = 1e-3, 1e8
+# The mesh's highest frequency over that of waves as short as the bodies, by which it grows while what is beyond it is
+# not known, and the number of times.
+_ABOVE, _MOST_RAISES = 1.5, 2
+# Part of the tolerance of K(0) that is left to what is beyond it; as much is left to what is below.
+_TAIL = 0.4
+# Frequencies over the highest one at which exponentials beyond the ray are fitted, but for those that are as near to a
+# resonance; frequencies of these exponentials, and error of H in the fit over the tolerance.
+_FITTED, _CLEAR = np.geomspace(1e-3, 1.0, 150), 0.01
+_FASTER, _MISFIT = np.exp(np.arange(np.log(0.5), np.log(60.0), 0.1)), 0.01
+# Errors of b at different frequencies cancel in its integral. Measured on a rectangle and a cylinder: the sum of their
+# magnitudes is 100 to 300 times the error.
+_PHASES = 0.05
+# Where the tangent at the end of an arc is taken, of its length.
+_BESIDE_END = 1e-6
+# Most that errors of H are lowered for K.
+_MOST_AMPLIFIED = 4.0
+# Frequencies over the highest one at which the sign of b is checked.
+_DAMPED = np.geomspace(1e-2, 30.0, 2000)
+# Lower end of the ray, as a multiple of 1/t.
+_LOWER = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,6 +102,7 @@ class WaterMemory:
         hydrodynamic: a + i b/ω there, not by the memory, shape (c, m, m).
         model: the field model.
         error: estimated relative error of H on the ray and of a∞.
+        tail: b beyond the last frequency.
     """
 
     memory: RadiationMemory
@@ -88,6 +111,7 @@ class WaterMemory:
     hydrodynamic: Complexes
     model: OpenModel
     error: float
+    tail: DampingTail
 
     @property
     def by_memory(self) -> Complexes:
@@ -103,6 +127,19 @@ class WaterMemory:
     def ogilvie_error(self) -> Floats:
         """Largest difference of a(ω) + (1/ω) ∫ K sin ωt dt from a∞, relative to the same, shape (c,)."""
         return self._largest(np.abs((self.by_memory - self.hydrodynamic).real))
+
+    def impulse_response_errors(self, times: Floats) -> Floats:
+        """Estimated error of K at times, relative to K(0) of both motions, shape (n,)."""
+        tail = self.tail
+        within = self.error * _amplification(tail, np.diag(self.memory.infinite_frequency_added_mass))
+        scale = np.sqrt(np.outer(tail.sizes, tail.sizes))
+        at_start = np.abs(self.memory.impulse_response(np.zeros(1))[0] - tail.start) / scale
+        # What is negative of b takes power from nowhere.
+        omega = tail.highest * _DAMPED
+        lowest = np.linalg.eigvalsh(self.memory.radiation_damping(omega) / scale)[:, 0]
+        gained = 2.0 / pi * np.trapezoid(np.maximum(-lowest, 0.0), omega)
+        errors: Floats = tail.errors(times) + within.max() + at_start.max() + gained
+        return errors
 
     def _largest(self, differences: Floats) -> Floats:
         sizes = np.sqrt(np.abs(np.einsum("cii->ci", self.hydrodynamic)).max(axis=0))
@@ -122,15 +159,19 @@ class _Found:
     model: OpenModel
     omega: np.ndarray
     hydrodynamic: np.ndarray
+    tail: DampingTail
+    error: float
 
 
-def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -> WaterMemory:
+def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int, earliest: float = inf) -> WaterMemory:
     """Return the memory of the water, to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
         latest: the last time at which it is wanted, s.
         elastic_modes: number of elastic shapes of each beam.
+        earliest: the first time at which K itself must keep the tolerance, s; infinite where only motions are wanted,
+            to which waves far shorter than the bodies do not matter.
     """
     long = open_basin(problem.tank, 0.0)
     shapes = reported_shapes(long.tank, elastic_modes)
@@ -139,10 +180,15 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     bodies = whole_bodies(long.tank, shapes)
     scale = motion_scale(long, bodies)
     limit = scale.masses(matrix)
+    least_powers = np.concatenate(
+        [np.full(one.size, _least_power(body)) for one, body in zip(bodies, long.tank.bodies, strict=True)]
+    )
     band = memory_band(problem.tank, problem.tolerance, latest, elastic_modes)
+    bodies_highest = band.highest
+    band = replace(band, highest=_ABOVE * band.highest)
     scaling = ANGLE if is_infinitely_deep(problem.tank) else ANGLE_OVER_A_BED
 
-    def solve(resolution: Resolution) -> Attempt[_Found]:
+    def solve(band: Band, resolution: Resolution) -> Attempt[_Found]:
         model = open_model(problem, band, replace(resolution, shapes=shapes), angle=scaling)
         unit = model.basin.units.frequency
         low, high = band.lowest / unit, band.highest / unit
@@ -156,7 +202,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             return added
 
         # Lower ones change K at later times only.
-        axis = np.geomspace(max(low, 1.0 / (latest * unit)), high, _ON_AXIS)
+        axis = np.geomspace(max(low, 1.0 / (latest * unit)), bodies_highest / unit, _ON_AXIS)
         hydrodynamics = Problem(
             full=full, reduced=lambda omega: solver.hydrodynamic(omega**2), difference=relative_difference
         )
@@ -176,47 +222,76 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
         resonances, residues = _resonances(solver, (low, high), ray.angle, resonances)
         with problem.watch.stage("memory"):
             far = model.scale.unknown_masses(limit)
-            fast = high_frequency_series(lambda omegas: solver.hydrodynamics(omegas**2), high * ray.turned, far)
-            radii = ray_radii(min(_LOWER / (latest * unit), 1e-4 * low), _HIGHER * high, ray.gap, _RULE)
+            least = min(_LOWER / (latest * unit), 1e-4 * low)
+            # The ray ends at the highest frequency.
+            radii = high / ray_radii(1.0, high / least, ray.gap, _RULE)[::-1]
             has_series = has_low_frequency_series(problem.tank)
-            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), fast, has_low_series=has_series)
-            is_short = radii > high
-            beyond = np.concatenate([added[~is_short] - far, fast.beyond_limit(radii[is_short] * ray.turned)])
+            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), None, has_low_series=has_series)
+            beyond = added - far
             if not has_series:
                 beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
-            masses = model.scale.masses
+
+            def masses(matrices: np.ndarray) -> np.ndarray:
+                return np.array([model.scale.masses(one) for one in matrices]).reshape(-1, *limit.shape)
+
+            def hydrodynamic(omegas: np.ndarray) -> np.ndarray:
+                return masses(solver.hydrodynamics((omegas / unit) ** 2))
+
             memory = memory_on_ray(
-                np.array([masses(one) for one in beyond]),
+                masses(beyond),
                 limit,
                 radii * unit,
                 ray.angle,
-                start=masses(fast.coefficients[0]) * band.highest**2,
-                quickest=band.highest,
                 poles=np.conj(-1j * resonances * unit),
-                residues=(unit**2 * np.array([masses(one) for one in residues.conj()]))
-                .reshape(-1, *limit.shape)
-                .astype(np.complex128),
+                residues=(unit**2 * masses(residues.conj())).astype(np.complex128),
             )
-            if len(resonances):
-                # Resonances of narrow water have no end: those faster than the waves of the mesh are on no ray.
-                beside = np.abs(_FITTED[:, None] * high / resonances.real - 1.0)
-                chosen = _FITTED[(_FITTED * high > axis[0]) & (beside > _CLEAR).all(axis=1)] * high
-                memory = memory.completed(
-                    chosen * unit,
-                    np.array([masses(one) for one in solver.hydrodynamics(chosen**2)]),
-                    band.highest * np.concatenate([1j * np.exp(1j * ray.angle) * _FASTER, (1j - _LOSS) * _FASTER]),
-                )
+            inertia = np.abs(np.diag(model.scale.masses(model.mass))) + np.diag(limit)
+            tail = damping_tail(
+                hydrodynamic,
+                band.highest,
+                NO_WATER * band.highest**2 * inertia,
+                least_powers,
+                has_peaks=len(resonances) > 0,
+            )
+            fitted = _FITTED * band.highest
+            fitted = fitted[fitted > axis[0] * unit]
+            clear = np.abs(fitted[:, None] / (unit * resonances.real) - 1.0) > _CLEAR
+            fitted = fitted[clear.all(axis=1)]
+            memory = memory.completed(
+                fitted,
+                hydrodynamic(fitted),
+                1j * np.exp(1j * ray.angle) * band.highest * _FASTER,
+                tail,
+                (_MISFIT * problem.tolerance, problem.tolerance),
+            )
         found = _Found(
             memory=memory,
             model=model,
             omega=axis * unit,
-            hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
+            hydrodynamic=hydrodynamic(axis * unit),
+            tail=tail,
+            error=inf,
         )
         # Those of rays that were left do not matter.
         own = [cause for omega, cause in causes.items() if -np.angle(omega) < ray.angle + _ROUNDING]
-        return Attempt(result=found, causes=joined_errors(own, basis_error + limit_error), resolution=resolution)
+        causes_of_h = joined_errors(own, basis_error + limit_error)
+        found = replace(found, error=causes_of_h.largest_total)
+        needed = 1.0
+        if earliest < inf:
+            needed = float(np.clip(2.0 * _amplification(tail, np.diag(limit)).max(), 1.0, _MOST_AMPLIFIED))
+        return Attempt(result=found, causes=causes_of_h.scaled(needed), resolution=resolution)
 
-    attempt = best_over_band(problem, band, solve)
+    attempt = best_over_band(problem, band, partial(solve, band))
+    for _ in range(_MOST_RAISES):
+        tail = attempt.result.tail
+        # Narrow water has ever more resonances above.
+        if tail.errors(np.array([earliest])).max() <= _TAIL * problem.tolerance or tail.is_slow or tail.has_peaks:
+            break
+        band = replace(band, highest=_ABOVE * band.highest)
+        higher = best_over_band(problem, band, partial(solve, band))
+        if higher.result.tail.error.max() + higher.error > tail.error.max() + attempt.error:
+            break
+        attempt = higher
     found = attempt.result
     return WaterMemory(
         memory=found.memory,
@@ -224,7 +299,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
         omega=found.omega,
         hydrodynamic=found.hydrodynamic,
         model=found.model,
-        error=attempt.error,
+        error=found.error,
+        tail=found.tail,
     )
 
 
@@ -291,7 +367,7 @@ def _with_long_waves(beyond: np.ndarray, p: np.ndarray, first: int) -> np.ndarra
 
 
 def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int) -> Band:
-    """Return the range of frequencies that the mesh resolves.
+    """Return the range of frequencies that the bodies need.
 
     The highest frequency is that of waves as short as the bodies, or as the shortest shape of a beam.
 
@@ -301,9 +377,43 @@ def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int
         latest: the last time at which the memory is wanted, s.
         elastic_modes: number of elastic shapes of each beam.
     """
-    narrowest = min(
-        (body.waterplane[1] - body.waterplane[0]) / (elastic_modes + 1 if body.is_elastic else 1)
-        for body in water.bodies
-    )
+    narrowest = min(_narrowest(body, elastic_modes, is_revolved=water.geometry.is_revolved) for body in water.bodies)
     fastest = sqrt(pi * water.gravity / narrowest)
     return Band(lowest=lowest_meshed_frequency(water, latest), highest=highest_meshed_frequency(fastest, tolerance))
+
+
+def _narrowest(body: Body, elastic_modes: int, *, is_revolved: bool) -> float:
+    """The length, m, that is half of the shortest wave of a body.
+
+    Waves as short as the thickness of a pipe neither pass under it nor know how thick it is.
+    """
+    left, right = body.waterplane
+    if body.is_elastic:
+        return (right - left) / (elastic_modes + 1)
+    if body.hull is not None and is_revolved and left > 0.0:
+        low, high = body.hull.bounds[2:]
+        return max(right - left, min(high - low, right))
+    return right - left
+
+
+def _amplification(tail: DampingTail, limit: np.ndarray) -> np.ndarray:
+    """Relative error of K(0) by a relative error of H, shape (m,): of (2/π) ∫₀^Ω ω δH dω, where H is mostly a∞."""
+    amplified: np.ndarray = _PHASES * tail.highest**2 / pi * limit / tail.sizes
+    return amplified
+
+
+def _least_power(body: Body) -> float:
+    """The power of 1/ω with which the damping of a body decays at least, by the angle α in the water between it and the
+    level: 2π/α − 1."""
+    if body.hull is None:
+        return 1.0
+    angles = [0.5 * pi]
+    if not body.hull.is_thin:
+        chain = body.hull.below
+        for points, outwards in (
+            (chain[0].point(np.array([0.0, _BESIDE_END])), -1.0),
+            (chain[-1].point(np.array([1.0, 1.0 - _BESIDE_END])), 1.0),
+        ):
+            x, y = points[1] - points[0]
+            angles.append(acos(outwards * float(x / np.hypot(x, y))))
+    return 2.0 * pi / max(angles) - 1.0

@@ -283,7 +283,7 @@ def hydrodynamics_along_ray(
     ray: Ray,
     radii: np.ndarray,
     band: tuple[float, float],
-    fast: HighFrequencySeries,
+    fast: HighFrequencySeries | None,
     *,
     has_low_series: bool,
 ) -> tuple[np.ndarray, LowFrequencySeries | None]:
@@ -294,7 +294,7 @@ def hydrodynamics_along_ray(
         ray: the ray.
         radii: |ω|, ascending.
         band: lowest and highest frequency of the mesh; beyond these H is that of the series.
-        fast: the high-frequency series.
+        fast: the high-frequency series, if any |ω| is above the band.
         has_low_series: whether H has a low-frequency series.
     """
     low, high = band
@@ -302,8 +302,12 @@ def hydrodynamics_along_ray(
     slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if has_low_series else None
     first = np.searchsorted(radii, low) if slow else 0
     last = np.searchsorted(radii, high, side="right")
-    parts = [solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]
-    return np.concatenate([slow.hydrodynamic(omegas[:first]), *parts] if slow else parts), slow
+    parts = [solver.hydrodynamics(omegas[first:last] ** 2)]
+    if slow is not None:
+        parts.insert(0, slow.hydrodynamic(omegas[:first]))
+    if fast is not None:
+        parts.append(fast.hydrodynamic(omegas[last:]))
+    return np.concatenate(parts), slow
 
 
 def _summed(times: np.ndarray, radii: np.ndarray, ray: Ray, weighed: np.ndarray) -> np.ndarray:

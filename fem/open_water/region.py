@@ -9,6 +9,9 @@ import numpy as np
 MOST_DAMPING_ANYWHERE = 0.7
 """−Im ω/Re ω up to which resonances are found in water of any depth."""
 
+# Im ω/Re ω of the upper side.
+_ABOVE_THE_AXIS = 0.02
+
 
 @dataclass(frozen=True, kw_only=True)
 class Region:
@@ -26,7 +29,8 @@ class Region:
 
     def holds(self, omega: complex) -> bool:
         """Whether a frequency in rad/s lies in the region."""
-        return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
+        above = omega.imag < _ABOVE_THE_AXIS * omega.real
+        return above and self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
 
     def boundary(self, places: np.ndarray) -> np.ndarray:
         """Return ω of points on the boundary, rad/s.
@@ -38,8 +42,8 @@ class Region:
         corners = [
             self.lowest * (1.0 - 1j * self.damping),
             self.highest * (1.0 - 1j * self.damping),
-            self.highest * (1.0 + 0.02j),
-            self.lowest * (1.0 + 0.02j),
+            self.highest * (1.0 + 1j * _ABOVE_THE_AXIS),
+            self.lowest * (1.0 + 1j * _ABOVE_THE_AXIS),
         ]
         points = []
         for place in places:

@@ -36,11 +36,14 @@ ANGLE = 1.3
 """α of the complex scaling, rad: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are eigenvalues in deep water; beyond
 `MOST_DAMPING_ANYWHERE` they are found by `damped`."""
 
+SHORTEST_WAVES = 100.0
+"""Largest length of an elastic body, in radians of a wave, at whose frequency elastic tones are sought unasked."""
+
 # By so much α exceeds −arg k over a bed.
 _DECAYING = 0.5
 # A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
 _STILL = 1e-2
-# The same with a coarse mesh, of resonances that are counted but not found otherwise; finer ones tell.
+# The same with a coarse mesh, of what may be a resonance; finer ones tell.
 _NEARLY_STILL = 0.1
 # Lower limit of the region over the lowest expected frequency.
 _BELOW = 0.3
@@ -64,10 +67,10 @@ _SPACINGS = (0.1, 0.05, 0.025)
 _AROUND = 1.1
 # Relative difference of ω below which two targets have found the same resonance.
 _SAME = 1e-6
+# The same of solutions on a boundary, which are less accurate within.
+_SAME_ROUGHLY = 1e-3
 # Part of the stiffness of a motion below which a negative one of several together is rounding.
 _UNSTABLE = 1e-12
-# The same with a coarse mesh, on which SLEPc leaves larger errors, and the number of targets in a region.
-_SAME_ROUGHLY, _TARGETS_IN_WATER = 1e-4, 4
 # Bodies with a smaller participation are at rest in a resonance of the water.
 _AT_REST = 1e-8
 
@@ -111,7 +114,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         EigenSolverError: if SLEPc fails.
     """
     watch = problem.watch
-    expected = bodies_at_infinite_frequency(problem).frequencies()
+    expected, beyond = expected_frequencies(problem, request)
     if not expected:
         return _nothing(problem)
     region = _region(expected, request)
@@ -123,12 +126,12 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         solver = damped
     else:
         solver = OpenSolver(coarse, watch)
+        # Water that bodies hardly take part in has resonances far from all expected ones.
         with watch.stage("count"):
-            counted = zeros_in(solver, region.boundary)
-        if counted is not None and counted > len(known):
-            # Water that bodies hardly take part in has resonances far from all expected ones.
-            with watch.stage("resonances"):
-                known = sorted([*known, *_search(coarse, _spread(region), region, _NEARLY_STILL, known)], key=abs)
+            inside = _inside(solver, region) or {}
+        missing = [omega for omega in inside if not _is_known(omega, known, _SAME_ROUGHLY)]
+        with watch.stage("resonances"):
+            known = sorted([*known, *_search(coarse, missing, region, _NEARLY_STILL, known)], key=abs)
     values = known[: request.count]
     band, angle = Band(lowest=region.lowest, highest=region.highest), _angle(problem, values)
     if damped:
@@ -151,16 +154,38 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
     found = attempt.result
     with watch.stage("count"):
         closed, counted = _counted(solver, _closed_region(region, found, request), known)
-        if counted is not None and counted < sum(map(closed.holds, known)) and damped is None:
-            # Poles of H count as less.
-            counted += len(_resonances_of_the_water(coarse, closed))
     return ResonanceSolution(
-        table=_table(found, attempt.causes, counted, closed),
+        table=replace(_table(found, attempt.causes, counted, closed), not_sought=beyond),
         model=found.model,
         error=attempt.error,
         known=_known(found, closed, known),
         unstable=bool(np.linalg.eigvalsh(scaled_stiffness(found.model.stiffness)).min(initial=0.0) < -_UNSTABLE),
     )
+
+
+def expected_frequencies(problem: OpenWaterProblem, request: ResonanceRequest) -> tuple[list[float], float | None]:
+    """Return the frequencies near which resonances are sought, rad/s, ascending, and the lowest elastic tone that is
+    not sought, if there is one (collective).
+
+    Without an upper limit elastic tones of stiff bodies are not sought among waves far shorter than the bodies.
+    """
+    bodies = bodies_at_infinite_frequency(problem)
+    expected = bodies.frequencies()
+    elastic = [right - left for left, right in (body.waterplane for body in problem.tank.bodies if body.is_elastic)]
+    if request.below is not None or not elastic:
+        return expected, None
+    rigid = bodies.frequencies(floats=True) if bodies.of_floats.any() else []
+    sought = [
+        omega
+        for omega in expected
+        if omega <= max(rigid, default=0.0) or _wavenumber(problem, omega) * min(elastic) <= SHORTEST_WAVES
+    ]
+    return sought, next((omega for omega in expected[: request.count] if omega not in sought), None)
+
+
+def _wavenumber(problem: OpenWaterProblem, omega: float) -> float:
+    """Largest wavenumber of waves of a frequency, 1/m."""
+    return Band(lowest=omega, highest=omega).wavenumbers(problem.tank)[1]
 
 
 def _known(found: _Found, region: Region, rough: list[complex]) -> int:
@@ -193,32 +218,41 @@ def _counted(solver: Solver, region: Region, known: list[complex]) -> tuple[Regi
         narrower = replace(region, damping=damping * region.damping)
         if any(abs(-omega.imag / omega.real / narrower.damping - 1.0) < _ON_BOUNDARY for omega in known):
             continue
-        counted = zeros_in(solver, narrower.boundary)
+        if isinstance(solver, OpenSolver):
+            inside = _inside(solver, narrower)
+            certain = inside is not None and max(inside.values(), default=0.0) < _STILL
+            counted = len(inside) if inside is not None and certain else None
+        else:
+            counted = zeros_in(solver, narrower.boundary)
         if counted is not None:
             return narrower, counted
     return region, None
 
 
-def _resonances_of_the_water(model: OpenModel, region: Region) -> list[complex]:
-    """ω in a region of the resonances of the water around fixed bodies, rad/s (collective).
+def _inside(solver: OpenSolver, region: Region) -> dict[complex, float] | None:
+    """ω in a region of the resonances by solutions on its boundary alone, rad/s, with |dλ/dα|/|λ| of each; ``None``
+    where they do not agree with the argument of det D along it (collective).
 
-    A vertical cylinder has one at ka = 0.50 − 0.64i in waves of azimuthal order 1, where H₁′(ka) = 0.
+    These solutions span the eigenvectors within (T. Sakurai and H. Tadano, Hokkaido Math. J. 36 (2007) 745). Poles of
+    H, as of the water between two bodies, cancel zeros in the winding number; where waves grow more along the bodies
+    than the mesh resolves, the continuous spectrum adds zeros and poles.
     """
-    unit = model.basin.units.frequency
-    search = ResonanceSearch(model.pencil, np.zeros((0, 0)), np.zeros((0, 0)))
-    found: list[complex] = []
-    for target in _spread(region):
-        for pair in search.near(model.squared_frequency(target), _PER_TARGET):
-            omega = complex(np.sqrt(pair.eigenvalue)) * unit
-            known = any(abs(omega - other) <= _SAME_ROUGHLY * abs(omega) for other in found)
-            if not known and pair.drift < _STILL and region.holds(omega):
-                found.append(omega)
+    model, search = solver.model, _outgoing_search(solver.model)
+    winding, size = zeros_in(solver, region.boundary), solver.basis_size
+    omegas, vectors = solver.free_motions()
+    inside = np.array([region.holds(omega) for omega in omegas])
+    if winding != inside.sum() - sum(map(region.holds, solver.zeros_and_poles()[1])):
+        return None
+    found = {}
+    for omega, vector in zip(omegas[inside], vectors[inside], strict=True):
+        pair = search.pair(model.squared_frequency(omega), solver.lifted(vector[:size]), vector[size:])
+        if pair.drift < _NEARLY_STILL and pair.participation > _AT_REST:
+            found[complex(omega)] = pair.drift
     return found
 
 
-def _spread(region: Region) -> list[complex]:
-    """Targets all over a region, rad/s."""
-    return list(np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping))
+def _is_known(omega: complex, known: list[complex], same: float) -> bool:
+    return any(abs(omega - other) <= same * abs(omega) for other in known)
 
 
 def _region(expected: list[float], request: ResonanceRequest) -> Region:
@@ -300,7 +334,7 @@ def _search(
     for target in targets:
         for pair in _nearest(search, model.squared_frequency(target)):
             omega = complex(np.sqrt(pair.eigenvalue)) * unit
-            known = any(abs(omega - other) <= _SAME * abs(omega) for other in [*others, *found])
+            known = _is_known(omega, [*others, *found], _SAME)
             if not known and pair.drift < still and pair.participation > _AT_REST and region.holds(omega):
                 found.append(omega)
     return found

@@ -115,7 +115,7 @@ class ResonanceSearch:
             inverse = solver.getEigenvalue(index)
             vector = operator.eigenvector(solver, index)
             if vector is not None:
-                pairs.append(self._pair(target + 1.0 / inverse, *vector))
+                pairs.append(self.pair(target + 1.0 / inverse, *vector))
         # PETSc and the operator reference each other, and the factorization, until one of them is destroyed.
         solver.destroy()
         operator.matrix.destroy()
@@ -148,11 +148,12 @@ class ResonanceSearch:
             eigenvalue += step
             size = abs(step / eigenvalue)
             if size <= _STEP or before <= size <= _ROUNDED:
-                return replace(self._pair(eigenvalue, bodies @ radiated, bodies), residual=size)
+                return replace(self.pair(eigenvalue, bodies @ radiated, bodies), residual=size)
             before = size
         raise EigenSolverError(f"Newton's method does not converge to a resonance near {eigenvalue:g}")
 
-    def _pair(self, eigenvalue: complex, potential: np.ndarray, bodies: np.ndarray) -> Eigenpair:
+    def pair(self, eigenvalue: complex, potential: np.ndarray, bodies: np.ndarray) -> Eigenpair:
+        """Return an eigenpair of a λ with its ψ and a (collective)."""
         pencil = self._pencil
         laplace, mass = (complex_product(matrix, potential) for matrix in (pencil.laplace, pencil.mass))
         turned = [complex_product(matrix, potential) for matrix in self._turning]

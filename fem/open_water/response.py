@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import Curves, refined_curves
@@ -19,7 +20,7 @@ from hydroelastic.fem.open_water.radiation import between, estimated_places, rel
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.response_errors import load_errors, response_errors
 from hydroelastic.fem.open_water.response_table import ResponseErrors, response_table
-from hydroelastic.fem.open_water.results import HullPressure, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import HullPressure, Largest, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -116,14 +117,80 @@ def solve_response(
     table = found.table
     if request.hull_pressures:
         table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors, like))
+    meshed = table.relative_error - found.swept.errors
     curves = None
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
         incident = incident_places(model, request.waves_from)
         curves = refined_curves(found.solver, incident, omegas, found.swept, drawn_tolerance(problem))
+        curves = _with_peaks(request, curves, drawn_tolerance(problem))
         if not problem.tank.geometry.is_revolved:
             table = replace(table, curve=drawn(request, curves))
+    table = _with_largest(request, model, table, curves, meshed)
     return ResponseSolution(table=table, model=model, error=attempt.error, wave_errors=found.wave_errors, curves=curves)
+
+
+def _with_peaks(request: ResponseRequest, curves: Curves, tolerance: float) -> Curves:
+    """Add the frequencies at which motions and the reflection are largest (collective)."""
+    model = curves.solver.model
+    told = [place for place, dof in enumerate(model.scale.dofs) if not dof.is_elastic or dof.is_first_elastic]
+    # The first time as the curve is drawn, the second time to the end of the digits.
+    for _ in range(2):
+        table = _of_basis(request, model, curves.omegas, curves.responses, curves.errors)
+        sizes = [np.abs(table.amplitudes[:, :, told]) ** 2]
+        if table.reflection is not None:
+            sizes.append(np.abs(table.reflection) ** 2)
+        columns = np.concatenate(sizes, axis=2).reshape(len(curves.omegas), -1).T
+        curves = curves.at(np.array([_peak(curves.omegas, column) for column in columns]), tolerance)
+    return curves
+
+
+def _peak(omegas: np.ndarray, sizes: np.ndarray) -> float:
+    """Where a curve through values at ascending frequencies is largest."""
+    place = int(sizes.argmax())
+    near = slice(max(place - 3, 0), place + 4)
+    spline = CubicSpline(omegas[near], sizes[near])
+    low, high = omegas[max(place - 1, 0)], omegas[min(place + 1, len(omegas) - 1)]
+    # Frequencies that all but coincide would make the next curve through them rough.
+    apart = 1e-6 * (high - low)
+    roots = [root for root in spline.derivative().roots(extrapolate=False) if low < root < high]
+    roots = [root for root in roots if np.abs(omegas - root).min() > apart]
+    return float(max([omegas[place], *roots], key=spline))
+
+
+def _with_largest(
+    request: ResponseRequest, model: OpenModel, table: ResponseTable, curves: Curves | None, meshed: np.ndarray
+) -> ResponseTable:
+    """Add the largest motions and reflection.
+
+    Args:
+        request: the analysis.
+        model: the field model.
+        table: at the frequencies that were requested.
+        curves: between them, if there are any.
+        meshed: relative errors of the table without those of the reduced basis.
+    """
+    found, errors = table, table.relative_error
+    if curves is not None:
+        found = _of_basis(request, model, curves.omegas, curves.responses, curves.reduced)
+        order = np.argsort(table.omega)
+        places = [int(place) for place in np.searchsorted(found.omega, table.omega[order])]
+        errors = curves.reduced + between(found.omega, places, meshed[order])
+    # Errors are relative to the elevation, or to the largest motion where this is larger: see `response_errors`.
+    units = model.scale.lengths / model.basin.units.length
+    sizes = np.maximum(1.0, (np.abs(found.amplitudes) / units).max(axis=2, initial=0.0))
+    largest = _largest(found.omega, np.abs(found.amplitudes), errors[:, None, None] * sizes[:, :, None] * units)
+    reflected = None
+    if found.reflection is not None:
+        own = np.abs(np.diagonal(found.reflection, axis1=1, axis2=2))
+        reflected = _largest(found.omega, own, np.broadcast_to(errors[:, None], own.shape))
+    return replace(table, largest=largest, largest_reflection=reflected)
+
+
+def _largest(omega: np.ndarray, values: np.ndarray, errors: np.ndarray) -> Largest:
+    places = values.argmax(axis=0)
+    value, error = (np.take_along_axis(of, places[None], axis=0)[0] for of in (values, errors))
+    return Largest(value=value, omega=omega[places], error=error)
 
 
 def drawn_tolerance(problem: OpenWaterProblem) -> float:

@@ -73,6 +73,7 @@ def response_table(
         plates=tuple(_plates(request, model, solutions, errors)) if with_plates else (),
         round_plates=tuple(_round_plates(request, model, solutions, errors)) if with_plates else (),
         fields_at=request.fields_at,
+        wave_amplitude=request.elevation,
     )
 
 
@@ -95,7 +96,7 @@ def _moved(
     """Motions, and linear damping in place of each drag, of each response."""
     outside, found = model.outside, []
     for solution in solutions:
-        heights = request.elevation / model.basin.units.length / solution.incidence.elevations[solution.incident]
+        heights = solution.incidence.heights(model.basin, request.elevation)[solution.incident]
         speeds = np.sqrt(solution.squared.real) * np.abs(solution.motions @ outside.paths.T) * heights[:, None]
         found.append((solution.motions, REGULAR * outside.drag * speeds))
     return found

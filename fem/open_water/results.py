@@ -169,6 +169,21 @@ class UnresolvedPeak:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Largest:
+    """The largest magnitudes over the frequencies, those between the requested ones too.
+
+    Attributes:
+        value: of each motion, m/m or rad/m, or of each reflected wave.
+        omega: where they are, rad/s, of the same shape.
+        error: their estimated errors, of the same shape.
+    """
+
+    value: Floats
+    omega: Floats
+    error: Floats
+
+
+@dataclass(frozen=True, kw_only=True)
 class ResponseTable:
     """Motions and waves per unit elevation of the incident wave. Shapes: n frequencies, m motions, w waves.
 
@@ -195,8 +210,11 @@ class ResponseTable:
         near_field_drift: (n, w) the drift force by the field beside the bodies, N/m³; in one liquid, if pressures were
             requested.
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
+        wave_amplitude: of the incident waves, m, on which the damping by drag depends; 0 where it is not given.
         curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
+        largest: motions, shape (w, m); of more than six frequencies those of the curve.
+        largest_reflection: of each wave into itself, shape (w,); ``None`` about an axis.
         partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
             order j about an axis, j = 0, 1 …; ``None`` of a section.
     """
@@ -220,8 +238,11 @@ class ResponseTable:
     hulls: tuple[HullPressure, ...] = ()
     near_field_drift: Floats | None = None
     fields_at: tuple[float, ...] = ()
+    wave_amplitude: float = 0.0
     curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
+    largest: Largest | None = None
+    largest_reflection: Largest | None = None
     partial_waves: Complexes | None = None
 
     def largest_load_error(self, weight: float) -> float:
@@ -259,6 +280,8 @@ class ResonanceTable:
         relative_error: (r,) estimated relative error of ω.
         counted: number of resonances in the region by an independent count; ``None`` where that is not certain.
         region: of ω in which they were counted; ``None`` where no motion has a restoring force.
+        not_sought: frequency of the lowest of the elastic tones that were left out, as waves are far shorter there than
+            the bodies, rad/s; ``None`` of none.
     """
 
     omega: Complexes
@@ -269,6 +292,7 @@ class ResonanceTable:
     relative_error: Floats
     counted: int | None
     region: Region | None
+    not_sought: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,11 +6,12 @@ import gc
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from math import inf
 from typing import Literal, TypeAlias
 
 import numpy as np
 
-from hydroelastic.fem.kept_tolerance import excess
+from hydroelastic.fem.kept_tolerance import excess, kept_tolerance
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
@@ -120,7 +121,8 @@ def solve_open_water(
     found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
     problem = replace(problem, bands=tuple(band for band in found if band is not None))
     latest = max((max(one.times) for one in requests if isinstance(one, OVER_TIME)), default=0.0)
-    moving, memory = problem, _memory(problem, latest)
+    earliest = min((min(one.times) for one in requests if isinstance(one, ImpulseResponseRequest)), default=inf)
+    moving, memory = problem, _memory(problem, latest, earliest)
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
         solution = _solved(moving if isinstance(request, MotionRequest) else problem, request, memory)
@@ -128,8 +130,7 @@ def solve_open_water(
             # Near a resonance errors of forces and of the memory are magnified in the motion.
             factor = max(_MARGIN * problem.tolerance / solution.error, _LEAST)
             moving = replace(problem, tolerance=factor * problem.tolerance, solvers={})
-            memory = _memory(moving, latest)
-            solution = min(solution, _solved(moving, request, memory), key=lambda one: one.error)
+            solution = min(solution, _solved(moving, request, _memory(moving, latest, inf)), key=lambda one: one.error)
         # The tables alone: a model holds its mesh and matrices.
         tables.append(solution.table)
         if solution.model is not None and solution.model.pencil.size > size["dofs"]:
@@ -156,12 +157,12 @@ def solve_open_water(
     )
 
 
-def _memory(problem: OpenWaterProblem, latest: float) -> Memory:
-    """Return the memory of the water of each order up to a time, s, found when it is first asked for."""
+def _memory(problem: OpenWaterProblem, latest: float, earliest: float) -> Memory:
+    """Return the memory of the water of each order, found when it is first asked for; see `solve_memory`."""
 
     @cache
     def memory(order: int, elastic_modes: int) -> WaterMemory:
-        return solve_memory(problem.of_order(order), latest, elastic_modes)
+        return solve_memory(problem.of_order(order), latest, elastic_modes, earliest)
 
     return memory
 
@@ -206,11 +207,26 @@ def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> l
                 f"analysis {number} ({kind}): excitation forces and radiated waves disagree by "
                 f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
             )
+    if isinstance(solution, ImpulseResponseSolution):
+        reasons += _impulse_response_reasons(tolerance, f"analysis {number} ({kind})", solution)
     if isinstance(solution, SpectrumSolution):
         reasons += _spectrum_reasons(tolerance, f"analysis {number} ({kind})", solution.table)
     if isinstance(solution, ResonanceSolution):
         reasons += [f"analysis {number} ({kind}): {reason}" for reason in resonance_reasons(solution)]
     return reasons
+
+
+def _impulse_response_reasons(tolerance: float, analysis: str, solution: ImpulseResponseSolution) -> Iterator[str]:
+    """Yield a message on the times at which K does not keep the tolerance."""
+    table = solution.table
+    poor = table.impulse_response_error > tolerance
+    if poor.any():
+        largest, times = table.impulse_response_error.max(), table.times[poor]
+        yield (
+            f"{analysis}: K from t = {times.min():.4g} to {times.max():.4g} s has an estimated error of {largest:.1e} "
+            f"of K(0) = (2/π) ∫ B dω, above the tolerance {tolerance:g}: the damping B above "
+            f"{solution.highest:.4g} rad/s is not known well enough; {kept_tolerance(float(largest))}"
+        )
 
 
 def _spectrum_reasons(tolerance: float, analysis: str, table: SpectrumTable) -> Iterator[str]:
@@ -228,8 +244,14 @@ def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
     """Yield messages on why resonances of a region may be missing."""
     counted = solution.table.counted
     if counted is None:
-        yield "the independent count of the resonances is not certain: one may lie on the boundary of its region"
+        yield (
+            "the independent count of the resonances is not certain, as one may lie on the boundary of its region: "
+            "change count, below or largest_damping a little"
+        )
     elif counted != solution.known:
-        yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
+        yield (
+            f"an independent count finds {counted} resonances in the region, and {solution.known} are known, so that "
+            "the list may miss some: ask for a smaller tolerance, a smaller largest_damping, or those below a frequency"
+        )
     if solution.unstable:
         yield "a float is unstable: its motion grows, and is none of the resonances"

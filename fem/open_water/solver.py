@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from scipy.linalg import eig, eigvals
+from scipy.linalg import eig
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
@@ -272,7 +272,7 @@ class OpenSolver:
         dampings = np.repeat(self.damping[None], len(motions), axis=0)
         if self.elevation:
             # Drag depends on the height of the wave: each has a damping of its own.
-            heights = self.elevation / self.model.basin.units.length / waves.elevations
+            heights = waves.heights(self.model.basin, self.elevation)
             for place, (height, force) in enumerate(zip(heights, forces, strict=True)):
                 speeds = partial(_speeds, outside.paths, omega, dynamic, height * force)
                 damping = outside.equivalent_damping(speeds, REGULAR)
@@ -283,13 +283,40 @@ class OpenSolver:
     def resonances_between(self) -> np.ndarray:
         """Return ω of bodies and liquid on the basis, rad/s, Re ω ≥ 0, with those of the continuous spectrum
         (collective)."""
+        return self.free_motions()[0]
+
+    def free_motions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the same with the coordinates of ψ and the body unknowns of each, shape (motions, basis + body
+        unknowns) (collective)."""
         with self._watch.stage("reduce"):
             stiffness = self._coupled(0.0)
-            squares = eigvals(stiffness, stiffness - self._coupled(1.0))
-            omegas = np.sqrt(squares[np.isfinite(squares)]) * self.model.basin.units.frequency
+            size, own = len(stiffness), self._reduced.size
+            damping = np.zeros_like(stiffness)
+            damping[own:, own:] = 1j * self.model.outside.damping
+            mass = stiffness - self._coupled(1.0) - damping
+            if damping.any():
+                # (S − ωC − ω²M) x = 0 in (x, ωx).
+                zero, one = np.zeros_like(stiffness), np.eye(size)
+                left, right = np.block([[zero, one], [stiffness, -damping]]), np.block([[one, zero], [zero, mass]])
+                omegas, vectors = eig(left, right)
+            else:
+                squares, vectors = eig(stiffness, mass)
+                omegas = np.sqrt(squares)
+            chosen = np.isfinite(omegas) & (omegas.real >= 0.0)
+            found = omegas[chosen] * self.model.basin.units.frequency, vectors[:size, chosen].T
         # All processes must take the same branch in spite of rounding.
-        found: np.ndarray = self.model.pencil.comm.bcast(omegas)
-        return found
+        motions: tuple[np.ndarray, np.ndarray] = self.model.pencil.comm.bcast(found)
+        return motions
+
+    def zeros_and_poles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return ω of `free_motions`, where det D is zero, and of `water_resonances`, where it has poles, rad/s
+        (collective)."""
+        squares = self.water_resonances()[0]
+        return self.free_motions()[0], np.sqrt(squares[np.isfinite(squares)]) * self.model.basin.units.frequency
+
+    def lifted(self, coordinates: np.ndarray) -> np.ndarray:
+        """Return ψ of coordinates on the basis, shape (basis,): shape (own free unknowns,)."""
+        return self._reduced.potentials(coordinates)
 
     def water_resonances(self) -> tuple[np.ndarray, np.ndarray]:
         """Return λⱼ at which the water oscillates about fixed bodies, shape (basis,), and R of H = Σ R/(λⱼ − λ), shape

@@ -129,7 +129,8 @@ def _drift_of_orders(
     (collective).
 
     Bodies of radius a scatter waves in orders up to ka. The force of each pair of orders is less than that of the last
-    one: orders are added until all those left out contribute less than a part of the tolerance, which is told.
+    one: orders are added until all those left out contribute less than a part of the tolerance, or of the error of the
+    others, which is told.
     """
     wavenumbers, widths = drift_widths(problem.tank, omegas)
     scattered = wavenumbers * extent_of_bodies(problem.tank)[1]
@@ -150,7 +151,8 @@ def _drift_of_orders(
         partial = np.array(waves).T
         forces, error = drift_of_orders(widths, partial, np.stack(errors, axis=1), np.zeros(partial.shape))
         left_out = np.abs(forces[:, -1]) * np.maximum(scattered - order, 1.0)
-        if mean(left_out) <= least * mean(forces.sum(axis=1)):
+        # Waves far longer than the bodies leave rounding, which does not fall with the order.
+        if mean(left_out) <= max(least * mean(forces.sum(axis=1)), _LEFT_OUT * mean(error)):
             return forces.sum(axis=1), error + left_out
     raise AssertionError
 

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from dolfinx import fem, geometry
+from dolfinx import geometry
 from petsc4py import PETSc
+from scipy import sparse
 from slepc4py import SLEPc
 
+from hydroelastic.fem.cells import nearest_in_cells
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.level_bed.solution import SampledSurface
 from hydroelastic.fem.mode_set import Mode
@@ -117,18 +119,21 @@ def _evaluated(space: PlanSpace, coefficients: FloatArray, points: FloatArray, c
     """Functions of the space at points, in the nearest of some cells, shape (points, functions)."""
     mesh = space.liquid.tank.mesh
     places = np.column_stack([points, np.zeros(len(points))])
+    # Boxes around curved cells reach a little beyond their nodes.
     tree = geometry.bb_tree(mesh, mesh.topology.dim, entities=cells, padding=1e-9)
     middles = geometry.create_midpoint_tree(mesh, mesh.topology.dim, cells)
-    found = geometry.compute_closest_entity(tree, middles, mesh, places).astype(np.int32)
-    inside = geometry.compute_colliding_cells(mesh, geometry.compute_collisions_points(tree, places), places)
-    for number in range(len(places)):
-        links = inside.links(number)
-        if len(links):
-            found[number] = links[0]
-    values = np.empty((len(points), coefficients.shape[1]))
-    function = fem.Function(space.liquid.space)
-    whole = space.expanded(coefficients)
-    for column in range(coefficients.shape[1]):
-        function.x.array[:] = whole[:, column]
-        values[:, column] = function.eval(places, found).reshape(len(points))
+    nearest = geometry.compute_closest_entity(tree, middles, mesh, places).astype(np.int32)
+    around = geometry.compute_collisions_points(tree, places)
+    owners = np.append(np.repeat(np.arange(len(places)), np.diff(around.offsets)), np.arange(len(places)))
+    candidates = np.append(around.array, nearest).astype(np.int32)
+    reference, distances = nearest_in_cells(mesh, candidates, points[owners])
+    order = np.lexsort([distances, owners])
+    chosen = order[np.append(True, np.diff(owners[order]) > 0)] if len(order) else order
+    table = space.liquid.space.element.basix_element.tabulate(0, reference[chosen])[0, :, :, 0]
+    dofs = space.liquid.space.dofmap.list[candidates[chosen]]
+    at = sparse.csr_matrix(
+        (table.ravel(), dofs.ravel(), np.arange(0, dofs.size + 1, dofs.shape[1])),
+        shape=(len(points), space.liquid.size),
+    )
+    values: FloatArray = at @ space.expanded(coefficients)
     return values

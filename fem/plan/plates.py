@@ -202,6 +202,8 @@ def _disc_tail(
     """Energy of the orders and radial polynomials left out, from that of the last ones."""
     energies = body.stiffness * amplitudes**2
     rigid_free = body.bending_stiffness > 0.0
+    if not rigid_free.any():
+        return np.zeros(len(amplitudes))
     of_order = np.zeros((len(amplitudes), max(order for order, _ in shapes.orders) + 1))
     radial = np.zeros(len(amplitudes))
     first = 0

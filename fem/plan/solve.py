@@ -134,6 +134,7 @@ def solve_smallest_model(
         modes=tuple(
             LevelMode(
                 problem=problems[classes.origins[index][0]],
+                bodies=problems[classes.origins[index][0]].pencil.bodies,
                 mode=classes.completed(index),
                 relative_error=float(errors[index]),
             )

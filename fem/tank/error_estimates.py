@@ -11,7 +11,7 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import cells_at
+from hydroelastic.fem.cells import cells_at, owned_cells
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.solver_error import EigenSolverError
@@ -19,6 +19,7 @@ from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.field_solution import FieldSolution, Origin
 from hydroelastic.fem.tank.mesh import tip_points
 from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, Resolution, rounding_error
+from hydroelastic.fem.tank.singularities import weak_corners
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.tank import Tank
@@ -94,6 +95,9 @@ def frequency_errors(
         half, rings = solution.half, resolution.tip_size is not None
         return cells_at_tips(solution.mesh, tank, half=half, infinite_frequency=infinite_frequency, rings=rings)
 
+    exponents = np.full(len(owned_cells(solution.mesh.mesh)), np.inf)
+    for corner, exponent in weak_corners(tank, half=solution.half).items() if tank.bed is not None else ():
+        exponents[cells_at(solution.mesh.mesh, np.array([corner]))] = exponent
     away_and_at_tips, projection = np.empty((len(modes), 2)), np.zeros(len(modes))
     for number, part in enumerate(solution.parts):
         own = [place for place, (owner, _) in enumerate(origins) if owner == number]
@@ -101,7 +105,7 @@ def frequency_errors(
             away_and_at_tips[own] = _finite(part.modes.liquid_errors([origins[place][1] for place in own]))
         else:
             potentials = [modes[place].potential for place in own]
-            away_and_at_tips[own] = _away_and_at(at_tips(), part.pencil.liquid, potentials)
+            away_and_at_tips[own] = _away_and_at(at_tips(), part.pencil.liquid, potentials, exponents)
         if part.modes.projection is not None:
             projection[own] = part.modes.projection.max(initial=0.0)
     liquid, tips = away_and_at_tips.T
@@ -135,9 +139,11 @@ def cells_at_tips(
     return cells_at(mesh.mesh, points)
 
 
-def _away_and_at(at_tips: np.ndarray, liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
+def _away_and_at(
+    at_tips: np.ndarray, liquid: LiquidSpace, potentials: list[PETSc.Vec], exponents: np.ndarray | None = None
+) -> np.ndarray:
     """Sums of `cell_errors` away from tips and at tips, shape (potentials, 2) (collective)."""
-    sums: np.ndarray = cell_errors(liquid, potentials) @ np.column_stack([~at_tips, at_tips])
+    sums: np.ndarray = cell_errors(liquid, potentials, exponents) @ np.column_stack([~at_tips, at_tips])
     liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, sums)
     return _finite(sums)
 

@@ -176,6 +176,7 @@ def round_solution(
         modes=tuple(
             LevelMode(
                 problem=problems[mode.order],
+                bodies=orders[mode.order].field.bodies,
                 mode=orders[mode.order].asked[mode.index],
                 relative_error=mode.relative_error,
             )

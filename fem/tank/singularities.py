@@ -13,7 +13,7 @@ from math import atan2, dist, inf, pi
 
 import numpy as np
 
-from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, unsized, zero_potential_surfaces
 from hydroelastic.meshes.geometry import AXIS, BOTTOM, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.dofs import body_number
@@ -161,6 +161,18 @@ def tank_singular_points(
         continuous_pressure=infinite_frequency,
         kinks=_kinks(tank),
     )
+
+
+def weak_corners(tank: Tank, *, half: bool) -> dict[Point, float]:
+    """Corners of bed and walls, and the bed's tip on the axis, where ψ ~ r^α is too weak for rings: α from 1 to 3."""
+    outline = tank_outline(tank, unsized(tank), half=half, infinite_frequency=False)
+    found = {}
+    for point, around in _wedges(outline).items():
+        for names, angle in ((set(sector.names), sector.angle) for sector in _sectors(outline, around)):
+            exponent = pi / (angle * (2.0 if names & {AXIS, SYMMETRY_PLANE} else 1.0))
+            if BOTTOM in names <= _WALLS and 1.0 + _SMOOTH < exponent < 3.0 and abs(exponent - 2.0) > _SMOOTH:
+                found[point] = exponent
+    return found
 
 
 def _kinks(tank: Tank) -> dict[Point, float]:

@@ -45,9 +45,15 @@ class WaveForces:
     forces: Complexes
     ramp: float = 0.0
 
+    def grown(self, times: Floats) -> Floats:
+        """r at times, shape (n,)."""
+        part = np.minimum(times / self.ramp, 1.0) if self.ramp else np.ones_like(times)
+        grown: Floats = 0.5 - 0.5 * np.cos(np.pi * part)
+        return grown
+
     def at(self, time: float) -> Floats:
         """The forces at a time, shape (m,)."""
-        grown = 0.5 - 0.5 * np.cos(np.pi * time / self.ramp) if time < self.ramp else 1.0
+        grown = self.grown(np.array([time]))[0]
         force: Floats = grown * (np.exp(-1j * self.omega * time) @ self.forces).real
         return force
 

@@ -12,15 +12,26 @@ trapezoidal rule in ln |p|
 
 with an error e^{−2πδ/h} in a and b where K̂ is analytic within an angle δ of the ray. Poles of K̂ before it add
 exponentials with twice their residues. The exponentials are states of
-a linear system, and K(t) = 0 before t = 0 by construction. K̂ ~ C/p for p → ∞, C = K(0), has two exponentials of its
-own, C (2 e^{−2βt} − e^{−βt}) with the transform Cp/((p + β)(p + 2β)), so that what is left is negligible beyond both
-ends of the ray.
+a linear system, and K(t) = 0 before t = 0 by construction. The ray ends at the highest frequency of H. What is beyond
+it, K̂ ~ K(0)/p for p → ∞ among it, are exponentials by least squares, of H at real frequencies, of K(0) = (2/π) ∫ b dω
+and of b beyond the last frequency.
+
+Up to the highest frequency Ω the integral of b is one of H over the arc |ω| = Ω of the upper half plane, where H is
+analytic: it misses no resonance of the water, however narrow,
+
+    ∫₀^Ω b dω = −Im ∫ ωH dω   over the arc from Ω to iΩ.
+
+Beyond Ω, b decays like ω^−q or faster, q = 2π/α − 1 where the hull meets the level at an angle α in the water: 3 for
+the surge of a wall, less where the body is above the water; heave beside a wall decays exponentially. The power is
+measured over the last half octave of the band; what the band without it gives tells the error.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import pi
+from itertools import pairwise
+from math import pi, sqrt
 from typing import TypeAlias
 
 import numpy as np
@@ -29,8 +40,67 @@ import numpy.typing as npt
 Floats: TypeAlias = npt.NDArray[np.float64]
 Complexes: TypeAlias = npt.NDArray[np.complex128]
 
-# Singular values of a least squares problem that are left out, relative to the largest.
-_DEPENDENT = 1e-10
+# Frequencies at which b beyond the last frequency Ω is fitted, over Ω, and the least error of it, relative to K(0).
+_BEYOND, _LEAST_DOUBT = np.geomspace(1.05, 100.0, 60), 1e-6
+
+# Gauss points of the arc, which are closer to each other near the real axis.
+_POINTS = 64
+# Least and largest ratio of the integrals over successive half octaves: of slower decay, q < 1.5, the integral beyond Ω
+# is not known.
+_FASTEST, _SLOWEST = 1e-3, 0.85
+# Power of 1/ω below which it hardly matters how far the mesh goes.
+_HOPELESS = 2.0
+# Part of what lies beyond Ω that is uncertain in any case.
+_UNCERTAIN = 0.02
+# From this multiple of 1/Ω on the error of K by what lies beyond Ω falls with the square of time: B and what stands for
+# it beyond Ω agree at Ω.
+_LATE = 3.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class DampingTail:
+    """B of m motions beyond Ω, SI units.
+
+    Attributes:
+        highest: Ω, rad/s.
+        within: (2/π) ∫₀^Ω B dω, shape (m, m).
+        beyond: (2/π) ∫_Ω^∞ B dω, shape (m, m).
+        powers: q, shape (m,).
+        sizes: diagonal of K(0), or what is negligible beside it, shape (m,).
+        error: estimated error of the diagonal of `beyond`, relative to these, shape (m,).
+        has_peaks: whether resonances of the water go on beyond Ω.
+    """
+
+    highest: float
+    within: Floats
+    beyond: Floats
+    powers: Floats
+    sizes: Floats
+    error: Floats
+    has_peaks: bool
+
+    @property
+    def start(self) -> Floats:
+        """K(0), shape (m, m)."""
+        whole: Floats = self.within + self.beyond
+        return whole
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether B decays too slowly for higher frequencies of the mesh to matter."""
+        return bool((self.powers < _HOPELESS).any())
+
+    def damping(self, omega: Floats) -> Floats:
+        """B by the power law at ω > Ω, shape (n,): shape (n, m, m)."""
+        q = 0.5 * (self.powers[:, None] + self.powers)
+        law: Floats = 0.5 * pi * (q - 1.0) / self.highest * self.beyond * (omega[:, None, None] / self.highest) ** -q
+        return law
+
+    def errors(self, times: Floats) -> Floats:
+        """Error of K by it at times, relative to K(0), shape (n,)."""
+        late = np.maximum(times * self.highest / _LATE, 1.0)
+        error: Floats = self.error.max() * (np.ones_like(times) if self.has_peaks else late**-2)
+        return error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,22 +153,118 @@ class RadiationMemory:
         values: Complexes = self.infinite_frequency_added_mass + 1j * self.transform(omega) / omega[:, None, None]
         return values
 
-    def completed(self, omega: Floats, hydrodynamic: Complexes, rates: Complexes) -> RadiationMemory:
-        """Return the memory with further exponentials, by least squares of what it lacks of H at real frequencies.
+    def completed(
+        self,
+        omega: Floats,
+        hydrodynamic: Complexes,
+        rates: Complexes,
+        tail: DampingTail,
+        errors: tuple[float, float],
+    ) -> RadiationMemory:
+        """Return the memory with what it lacks of H at real frequencies, of K(0) and of b beyond the last frequency, as
+        further exponentials, by least squares.
+
+        Each of these is weighed by its error, and weights far above K(0), which would cancel each other, cost as much.
 
         Args:
             omega: frequencies, rad/s, shape (n,).
             hydrodynamic: H = a + i b/ω there, shape (n, m, m).
             rates: p of the exponentials, 1/s, shape (k,).
+            tail: K(0), and b beyond the last frequency.
+            errors: relative errors of H in the fit, and of a∞.
         """
-        upper, lower = (0.5 / (-1j * omega[:, None] - own) for own in (rates, rates.conj()))
-        columns = 1j / omega[:, None] * np.hstack([upper + lower, 1j * (upper - lower)])
-        lacking = (hydrodynamic - self.hydrodynamic(omega)).reshape(len(omega), -1)
-        known, wanted = (np.vstack([part.real, part.imag]) for part in (columns, lacking))
-        sizes = np.linalg.norm(known, axis=0)
-        found = np.linalg.lstsq(known / sizes, wanted, rcond=_DEPENDENT)[0] / sizes[:, None]
-        added = (found[: len(rates)] + 1j * found[len(rates) :]).reshape(len(rates), *self.weights.shape[1:])
-        return replace(self, rates=np.concatenate([self.rates, rates]), weights=np.concatenate([self.weights, added]))
+        unit, count = tail.highest, len(rates)
+        beyond = unit * _BEYOND
+
+        def columns(frequencies: Floats) -> Complexes:
+            upper, lower = (0.5 * unit / (-1j * frequencies[:, None] - own) for own in (rates, rates.conj()))
+            found: Complexes = np.hstack([upper + lower, 1j * (upper - lower)])
+            return found
+
+        # Per K(0) and in units of Ω; the last unknown is the error of a∞.
+        known = np.hstack([1j * unit / omega[:, None] * columns(omega), np.ones((len(omega), 1))])
+        damped = np.hstack([columns(beyond).real, np.zeros((len(beyond), 1))])
+        at_start = np.concatenate([np.ones(count), np.zeros(count + 1)])[None]
+        of_h = unit**2 * (hydrodynamic - self.hydrodynamic(omega))
+        of_b = unit * (tail.damping(beyond) - self.radiation_damping(beyond))
+        of_start = tail.start - self.weights.sum(axis=0).real
+        sizes, starts = _sizes(hydrodynamic), tail.sizes
+        found = np.zeros((2 * count + 1, *of_start.shape))
+        for i, j in np.ndindex(of_start.shape):
+            scale = sqrt(starts[i] * starts[j])
+            whole, doubt = unit**2 * sizes[i] * sizes[j] / scale, sqrt(tail.error[i] * tail.error[j]) + _LEAST_DOUBT
+            rows = [
+                (known.real, of_h[:, i, j].real / scale, errors[0] * whole),
+                (known.imag, of_h[:, i, j].imag / scale, errors[0] * whole),
+                (damped, of_b[:, i, j] / scale, doubt),
+                (at_start, of_start[None, i, j] / scale, doubt),
+                (np.eye(2 * count, 2 * count + 1), np.zeros(2 * count), 1.0),
+                (np.eye(1, 2 * count + 1, 2 * count), np.zeros(1), errors[1] * whole),
+            ]
+            matrix, wanted = (
+                np.concatenate(parts) for parts in zip(*((a / e, b / e) for a, b, e in rows), strict=True)
+            )
+            found[:, i, j] = scale * np.linalg.lstsq(matrix, wanted, rcond=None)[0]
+        return RadiationMemory(
+            infinite_frequency_added_mass=self.infinite_frequency_added_mass + found[-1] / unit**2,
+            rates=np.concatenate([self.rates, rates]),
+            weights=np.concatenate([self.weights, found[:count] + 1j * found[count:-1]]),
+        )
+
+
+def damping_tail(
+    hydrodynamic: Callable[[Complexes], Complexes],
+    highest: float,
+    negligible: Floats,
+    least_powers: Floats,
+    *,
+    has_peaks: bool,
+) -> DampingTail:
+    """Return B beyond the highest frequency.
+
+    Args:
+        hydrodynamic: H, shape (n, m, m), at complex ω, rad/s, shape (n,) (collective).
+        highest: Ω, rad/s.
+        negligible: K(0) that is none, shape (m,).
+        least_powers: q of the hulls, shape (m,).
+        has_peaks: whether resonances of the water go on beyond Ω.
+    """
+    nodes, gauss = np.polynomial.legendre.leggauss(_POINTS)
+    places = 0.5 * (nodes + 1.0)
+    angles, weights = 0.5 * pi * places**2, 0.5 * pi * places * gauss
+
+    def integral(omega: float) -> Floats:
+        along = omega * np.exp(1j * angles)
+        summed = np.tensordot(1j * along**2 * weights, hydrodynamic(along), axes=1)
+        return -np.asarray(summed.imag, dtype=float)
+
+    integrals = [integral(highest * 2.0 ** (0.5 * half)) for half in (-3, -2, -1, 0)]
+    halves = np.diff(np.array(integrals), axis=0)
+    parts = np.maximum(np.einsum("cii->ci", halves), 0.0)
+    before, last = (
+        np.clip(later / np.where(earlier > 0.0, earlier, np.inf), _FASTEST, _SLOWEST)
+        for earlier, later in pairwise(parts)
+    )
+    slowest = 2.0 ** (0.5 * (1.0 - least_powers))
+    previous, ratios = np.minimum(before, slowest), np.minimum(last, slowest)
+    # Of the geometric series of half octaves; positive semidefinite as B is.
+    factor = ratios / (1.0 - ratios)
+    within, beyond = 2.0 / pi * integrals[-1], 2.0 / pi * np.sqrt(np.outer(factor, factor)) * halves[-1]
+    sizes = np.maximum(np.diag(within + beyond), negligible)
+    # The same from half an octave less was off by this, and it converges as fast as B decays.
+    change = parts[-1] * (1.0 + factor) - parts[-2] * previous / (1.0 - previous)
+    doubt: Floats = (
+        np.abs(change) * np.minimum(factor, 1.0) + np.where(ratios < _SLOWEST, _UNCERTAIN, 1.0) * factor * parts[-1]
+    )
+    return DampingTail(
+        highest=highest,
+        within=within,
+        beyond=beyond,
+        powers=1.0 - 2.0 * np.log2(ratios),
+        sizes=sizes,
+        error=np.minimum(2.0 / pi * doubt / sizes, 1.0),
+        has_peaks=has_peaks,
+    )
 
 
 def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floats:
@@ -116,35 +282,30 @@ def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floa
 
 
 def memory_on_ray(
-    beyond_limit: Complexes,
-    limit: Floats,
-    radii: Floats,
-    angle: float,
-    *,
-    start: Floats,
-    quickest: float,
-    poles: Complexes,
-    residues: Complexes,
+    beyond_limit: Complexes, limit: Floats, radii: Floats, angle: float, *, poles: Complexes, residues: Complexes
 ) -> RadiationMemory:
-    """Return the memory of H along a ray.
+    """Return the memory of H along a ray, up to its end.
 
     Args:
         beyond_limit: H − a∞ at ω = |p| e^{−iδ}, shape (k, m, m).
         limit: a∞, shape (m, m).
         radii: |p|, 1/s, from `ray_radii`, shape (k,).
         angle: δ, rad.
-        start: C = lim p K̂ for p → ∞, shape (m, m).
-        quickest: β, 1/s, about the highest frequency of the bodies.
         poles: p of the resonances of the water between the imaginary axis and the ray, Im p > 0, shape (r,).
         residues: twice the residues of K̂ there, shape (r, m, m).
     """
     rates = radii * np.exp(1j * (0.5 * pi + angle))
-    along = rates[:, None, None]
-    # H at the conjugate of p = −iω is that at −ω̄.
-    rest = along * (beyond_limit.conj() - start / ((along + quickest) * (along + 2.0 * quickest)))
     step = np.log(radii[1] / radii[0])
+    # H at the conjugate of p = −iω is that at −ω̄.
+    weights = -1j * step / pi * rates[:, None, None] ** 2 * beyond_limit.conj()
     return RadiationMemory(
         infinite_frequency_added_mass=limit,
-        rates=np.concatenate([rates, [-quickest, -2.0 * quickest], poles]),
-        weights=np.concatenate([-1j * step / pi * along * rest, [-start, 2.0 * start], residues]),
+        rates=np.concatenate([rates, poles]),
+        weights=np.concatenate([weights, residues]),
     )
+
+
+def _sizes(hydrodynamic: Complexes) -> Floats:
+    """Square roots of the largest |H| of each motion, shape (m,)."""
+    sizes: Floats = np.sqrt(np.abs(np.einsum("cii->ci", hydrodynamic)).max(axis=0))
+    return np.maximum(sizes, np.finfo(float).tiny)

@@ -26,7 +26,8 @@ class ImpulseResponseTable:
         causality_error: (c,) largest difference of a + i b/ω by K and by the solution at that frequency, relative to
             the largest |a + i b/ω| of both motions.
         ogilvie_error: (c,) the same of a∞ by Ogilvie's relation and by the limit of infinite frequency.
-        relative_error: estimated relative error of H, from which K is made.
+        impulse_response_error: (n,) estimated error of K, relative to K(0) of both motions.
+        relative_error: the largest of these, or the estimated relative error of H, from which K is made.
     """
 
     times: Floats
@@ -38,6 +39,7 @@ class ImpulseResponseTable:
     radiation_damping: Floats
     causality_error: Floats
     ogilvie_error: Floats
+    impulse_response_error: Floats
     relative_error: float
 
 
@@ -54,7 +56,7 @@ class MotionTable:
         wave_phase: (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body.
         ramp: time in which the waves grow, s.
         initial: (m,) displacement at t = 0, m or rad.
-        elevation: (n,) m, there, without the bodies.
+        elevation: (n,) m, there, without the bodies, as the waves grow.
         displacement: (n, m) m or rad.
         velocity: (n, m) m/s or rad/s.
         steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear

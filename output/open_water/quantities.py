@@ -242,6 +242,18 @@ RADIATION = Group("radiation", "radiated and incident waves, by analysis; matric
         note="`null` if it was not requested", **_INERTIA),
     Quantity("factorizations", "number of factorizations", "1"),
 ), dimension="radiation_analysis")
+
+
+def _largest(key: str, words: str, dimensions: str, *, note: str = "", **units: Any) -> Group:
+    names = tuple(dimensions.split())
+    return Group(key, f"{words} over the frequencies, of more than six also between the requested ones", (
+        Quantity("value", words, dimensions=names, printed=False, variable="", **units),
+        Quantity("omega", "frequency at which it is", "rad/s", dimensions=names, printed=False, variable=""),
+        Quantity("error", "its estimated error", dimensions=names, printed=False, variable="", **units),
+    ), note=note)
+
+
+# fmt: off
 _AMPLITUDES = "omega wave radiating_dof", "omega wave_direction wave radiating_dof"
 _RATIOS = "omega wave outgoing_wave", "omega wave_direction wave outgoing_wave"
 ALONG_BEAM = "position_on_body_{.number}"
@@ -345,6 +357,9 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         "larger", "omega", "omega wave_direction", unit="1", short="error/largest", shown=".1e",
         variable="response_relative_error", note="smaller motions, rotations and partial waves may have a larger error "
             "relative to themselves"),
+    LARGEST := _largest("largest", "largest motion", "wave dof", unit="m/m", of_roll=("rad/m",)),
+    LARGEST_REFLECTION := _largest("largest_reflection", "largest reflection of each wave into itself", "wave",
+        unit="1", note="`null` of solids of revolution"),
     PLATES,
     HULLS,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
@@ -375,6 +390,8 @@ RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
         variable="resonance_residual", column="residual"),
     Quantity("counted", "number of resonances in the region by an independent count", "1", note="`null` if not"),
     Quantity("region", "region of ω in which they were counted", value=lambda table: region_words(table.region)),
+    Quantity("not_sought", "frequency of the lowest elastic tone that was not sought, as its waves are far shorter "
+        "than the body; `below` has it sought", "rad/s", note="`null` if all were sought"),
 ), dimension="resonance_analysis", note=NUMBERED)
 DECAY = Group("decay", "motion after release, by analysis", (
     DECAY_TIMES := joined_array("times", "time after release", "time", unit="s", symbol="t", shown=".6g",

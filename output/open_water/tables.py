@@ -244,7 +244,7 @@ def _resonance(table: ResonanceTable) -> Section:
         title="Resonances e^(−iωt)",
         headings=("", "motion", "Re ω, rad/s", "Im ω, 1/s", "period, s", "−Im ω/|ω|", "relative error", "residual"),
         rows=rows,
-        lines=(_counted(table),),
+        lines=(_counted(table), *_not_sought(table)),
     )
 
 
@@ -253,6 +253,14 @@ def _counted(table: ResonanceTable) -> str:
         return f"Searched in {region_words(table.region)}; not counted independently."
     verdict = "as many as were found" if table.counted == len(table.omega) else f"{len(table.omega)} are listed"
     return f"An independent count of {region_words(table.region)} gives {table.counted}: {verdict}."
+
+
+def _not_sought(table: ResonanceTable) -> Iterator[str]:
+    if table.not_sought is not None:
+        yield (
+            f"Elastic tones from about {table.not_sought:.3g} rad/s on were not sought: waves are far shorter there "
+            "than the body. below has them sought, at the cost of a mesh for these waves."
+        )
 
 
 def _decay(table: DecayTable) -> Section:

@@ -33,6 +33,8 @@ IMPULSE_RESPONSE = Group("impulse_response", "impulse responses of radiation, by
         short="causality error", shown=".1e"),
     joined_array("ogilvie_error", "difference of the added mass at infinite frequency by Ogilvie's relation and by its "
         "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e"),
+    joined_array("impulse_response_error", "estimated error of the impulse responses, relative to their values at "
+        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error"),
     IMPULSE_ERROR := joined_array("relative_error", "estimated relative error of the impulse responses", "", unit="1",
         shown=".1e", variable="impulse_relative_error"),
 ), dimension="impulse_response_analysis", note=NUMBERED)
@@ -48,7 +50,8 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
         note="its crest passes the middle of the first body at t = phase/ω"),
     Quantity("ramp", "time in which the waves grow", "s", variable=""),
     joined_array("initial", "displacement at t = 0", "dof", variable="motion_initial", **_MOTION),
-    ELEVATION := joined_array("elevation", "elevation of the incident waves at the middle of the first body",
+    ELEVATION := joined_array("elevation", "elevation of the incident waves, grown by the ramp, at the "
+        "middle of the first body",
         "motion_time", unit="m", symbol="η", shown=".4g", variable="wave_elevation"),
     MOTION_DISPLACEMENT := joined_array("displacement", "motion in waves", "motion_time dof",
         variable="motion_displacement", column="", shown=".5g", **_MOTION),

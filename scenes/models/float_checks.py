@@ -9,6 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
 from hydroelastic.scenes.models.body_kinds import AnyFloat
+from hydroelastic.scenes.models.limits import is_at_least, is_at_most, is_within, shown_least, shown_most, shown_range
 from hydroelastic.scenes.models.open_checks import depths_can_be_meshed, length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -112,12 +113,12 @@ def sides_are_long(
     from hydroelastic.physics.point_contours import shortest_side
 
     length, size, number = shortest_side(vertices)
-    if length <= SHORTEST_SIDE * size:
+    if length == 0.0 or not is_at_least(length, SHORTEST_SIDE * size):
         yield problem_at(
             location,
             None,
             f"the side that begins with vertex {number + 1} is {length:g} m long, too short beside the whole",
-            allowed=f"at least {SHORTEST_SIDE * size:g} m; the first vertex is not repeated at the end",
+            allowed=f"at least {shown_least(SHORTEST_SIDE * size)} m; the first vertex is not repeated at the end",
         )
 
 
@@ -141,7 +142,7 @@ def _sizes_fit(
 ) -> Iterator[InitErrorDetails]:
     width, height = extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
-    if not least <= width / height <= most:
+    if not is_within(width / height, least, most):
         yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
@@ -154,12 +155,12 @@ def _sizes_fit(
     beside, of_what = (
         ("the other bodies", "the length they take up") if scene.is_open else ("the tank", "the tank's length")
     )
-    if max(width, height) < smallest:
+    if not is_at_least(max(width, height), smallest):
         yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
             f"the float is too small beside {beside} for one mesh to resolve both",
-            allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of {of_what})",
+            allowed=f"a width or height of at least {shown_least(smallest)} m ({SMALLEST_FLOAT:g} of {of_what})",
         )
     if scene.is_open:
         yield from depths_can_be_meshed(scene, max(width, height))
@@ -202,7 +203,7 @@ def _floats_elsewhere(
         ("body", index, "mass"),
         body.mass,
         f"with a {size}{moored} it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
-        allowed=f"between {above * area + held:g} and {below * area + held:g} {unit} (Archimedes)",
+        allowed=f"between {shown_least(above * area + held)} and {shown_most(below * area + held)} {unit} (Archimedes)",
         remedy="Leave it out for the mass that floats with the reference level at the still level"
         + _closing_force(scene, body, contour, densities),
     )
@@ -213,20 +214,20 @@ def _parts_on_both_sides(
 ) -> Iterator[InitErrorDetails]:
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
-    if body.mass is None and body.draught is not None and not level <= high - least:
+    if body.mass is None and body.draught is not None and not is_at_most(level, high - least, beside=high - low):
         yield problem_at(
             ("body", index, "draught"),
             body.draught,
             f"the section is {high - low:g} m high",
-            allowed=f"less than {high - low - least:g} m",
+            allowed=f"up to {shown_most(high - low - least)} m",
         )
-    elif body.mass is not None and not low + least <= level <= high - least:
+    elif body.mass is not None and not is_within(level, low + least, high - least, beside=max(abs(low), abs(high))):
         yield problem_at(
             ("body", index, "mass"),
             body.mass,
             f"only {min(level - low, high - level):.3g} m of its height of {high - low:g} m lie "
             f"{'below' if level < low + least else 'above'} the still level",
-            allowed=f"a mass that leaves {least:g} m on either side",
+            allowed=f"a mass that leaves {shown_least(least)} m on either side",
         )
 
 
@@ -259,44 +260,44 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: Box) -> Iter
     if scene.is_open:
         yield from _lies_in_the_stretch(scene, index, body)
     elif scene.is_revolved:
-        if right > length - gap:
+        if not is_at_most(right, length - gap, beside=length):
             yield problem_at(
                 ("body", index, body.shape_key),
                 body.half_width,
                 f"the float has a radius of {right:g} m, and the tank one of {length:g} m",
-                allowed=f"{gap:g} m of liquid beside it",
+                allowed=f"{shown_least(gap)} m of liquid beside it",
             )
-    elif right - left > length - 2 * gap:
+    elif not is_at_most(right - left, length - 2 * gap, beside=length):
         yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
             f"the float is {right - left:g} m wide, and the tank {length:g} m long",
-            allowed=f"{gap:g} m of liquid on either side",
+            allowed=f"{shown_least(gap)} m of liquid on either side",
         )
-    elif left < gap or right > length - gap:
+    elif not (is_at_least(left, gap, beside=length) and is_at_most(right, length - gap, beside=length)):
         yield problem_at(
             ("body", index, "position"),
             body.position,
             f"the float reaches from {left:g} to {right:g} m, and touches or leaves a wall of the tank",
-            allowed=f"{body.position - left + gap:g} to {length - gap - right + body.position:g} m for this float",
+            allowed=f"{shown_range(body.position - left + gap, length - gap - right + body.position)} m for this float",
         )
     floor, ceiling = _limits(scene, body)
     key = next((key for key in ("draught", "half_height") if getattr(body, key) is not None), None)
     location, value = ("body", index, key or body.shape_key), key and getattr(body, key)
-    if low < floor + gap:
+    if not is_at_least(low, floor + gap, beside=floor):
         yield problem_at(
             location,
             value,
             f"the float reaches down to y = {low:g} m, and the liquid below it ends at y = {floor:g} m",
-            allowed=f"a draught that leaves {gap:g} m",
+            allowed=f"a draught that leaves {shown_least(gap)} m",
             remedy="Make the liquid deeper, the float less high or its mass smaller",
         )
-    elif ceiling is not None and high > ceiling - gap:
+    elif ceiling is not None and not is_at_most(high, ceiling - gap, beside=ceiling):
         yield problem_at(
             location,
             value,
             f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
-            allowed=f"a height that leaves {gap:g} m",
+            allowed=f"a height that leaves {shown_least(gap)} m",
             remedy="Make that layer deeper, the float less high or its mass greater",
         )
 
@@ -308,7 +309,7 @@ def _lies_in_the_stretch(scene: TankParts, index: int, body: AnyFloat) -> Iterat
             ("body", index, "position"),
             body.position,
             f"the float lies outside the stretch that is drawn, of {scene.tank.length:g} m",
-            allowed=f"0 to {scene.tank.length:g} m",
+            allowed=f"0 to {shown_most(scene.tank.length)} m",
         )
 
 
@@ -323,12 +324,12 @@ def _arms_fit(index: int, body: AnyFloat, bounds: Box) -> Iterator[InitErrorDeta
     longest = LONGEST_ARM * max(extents(bounds))
     for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
         value = getattr(body, key)
-        if value is not None and not least <= abs(value) <= longest:
+        if value is not None and not is_within(abs(value), least, longest):
             yield problem_at(
                 ("body", index, key),
                 value,
                 "it is beyond what double precision can tell from zero or from the section's own size",
-                allowed=f"{least if least else -longest:g} to {longest:g} m for this section",
+                allowed=f"{shown_range(least or -longest, longest)} m for this section",
             )
 
 

@@ -10,6 +10,7 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics.motions import PLACES
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
 from hydroelastic.scenes.models.float_checks import SMALLEST_GAP, Box, extents
+from hydroelastic.scenes.models.limits import is_at_least, shown_least, shown_most
 from hydroelastic.scenes.models.problems import problem_at
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
                 ("body", second, *(() if scene.is_revolved else (key,))),
                 None if scene.is_revolved else scene.body[second].start,
                 f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
-                remedy=f"Leave a gap of at least {gap:g} m between them",
+                remedy=f"Leave a gap of at least {shown_least(gap)} m between them",
             )
 
 
@@ -89,7 +90,8 @@ def _nearer_than(gap: float, one: Box, other: Box) -> bool:
     """Whether two boxes overlap or come nearer than a gap, in both directions."""
     beside = max(one[0], other[0]) - min(one[1], other[1])
     over = max(one[2], other[2]) - min(one[3], other[3])
-    return beside < gap and over < gap
+    size = max(map(abs, (*one, *other)))
+    return not (is_at_least(beside, gap, beside=size) or is_at_least(over, gap, beside=size))
 
 
 def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -112,7 +114,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
             getattr(body, given) if given else ", ".join(body.motions),
             f"the float capsizes: its centre of mass lies {height:g} m above "
             f"{'the still level' if above_water else 'its reference level'}, and the metacentre {-arm:.3g} m lower",
-            allowed=f"a {keys[above_water]} of at most {height + arm:g} m",
+            allowed=f"a {keys[above_water]} of at most {shown_most(height + arm)} m",
             remedy=f'Leave {found.pop()} out of the motions, or set unstable = "solve"',
         )
 
@@ -153,7 +155,7 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
                     position,
                     f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "
                     f"{left:g} to {right:g} m",
-                    allowed=f"below {left:g} or above {right:g} m",
+                    allowed=f"below {shown_most(left)} or above {shown_least(right)} m",
                     remedy='Move it, or set boundary = "exact"',
                 )
 

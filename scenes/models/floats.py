@@ -103,7 +103,6 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
     if not isinstance(body, AnyFloat):
         raise TypeError(f"body {index} is not a float")
     level = scene.level_of(body)
-    state = (scene.folder / body.file).stat() if body.file is not None else None
     placed = _placed(
         body,
         scene.folder,
@@ -111,7 +110,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
         scene.height_of(level),
         scene.densities_at(level),
         scene.tank.gravity,
-        (state.st_mtime_ns, state.st_size) if state is not None else None,
+        scene.state_of_file(body),
     )
     return placed if scene.is_open else held_float(scene, index, placed)
 

@@ -23,6 +23,7 @@ from hydroelastic.scenes.models.level_tank_physics import (
     physical_plan,
     shape_file,
 )
+from hydroelastic.scenes.models.limits import is_at_least, is_at_most, is_within, shown_least, shown_most, shown_range
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
 from hydroelastic.scenes.models.tank_kinds import PLAN_KEYS
@@ -112,13 +113,13 @@ def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             if keys & set(given) and key not in given:
                 yield problem_at(("tank", key), None, "it is missing", allowed=allowed)
     if tank.radius is not None and tank.inner_radius is not None:
-        least = LEAST_INNER_RADIUS * tank.radius
-        if not least <= tank.inner_radius < tank.radius * (1.0 - LEAST_INNER_RADIUS):
+        least, most = (part * tank.radius for part in (LEAST_INNER_RADIUS, 1.0 - LEAST_INNER_RADIUS))
+        if not is_within(tank.inner_radius, least, most):
             yield problem_at(
                 ("tank", "inner_radius"),
                 tank.inner_radius,
                 "it leaves no ring that can be resolved beside radius",
-                allowed=f"{least:g} to {tank.radius * (1.0 - LEAST_INNER_RADIUS):g} m",
+                allowed=f"{shown_range(least, most)} m",
             )
 
 
@@ -201,7 +202,7 @@ def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetail
             yield problem_at(("tank", "bed"), None, wrong, allowed="different places over all of the plan")
             return
         rise = float(np.ptp(heights))
-    if rise > depth * (1.0 - LEAST_DEPTH):
+    if not is_at_most(rise, depth * (1.0 - LEAST_DEPTH)):
         yield problem_at(
             ("tank", "bed"),
             None,
@@ -237,12 +238,12 @@ def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     plan = physical_plan(scene)
     unit, depth = plan.unit, depth_of(plan, scene)
     least, most = DEPTH_TO_LENGTH
-    if not least <= depth / unit <= most:
+    if not is_within(depth, least * unit, most * unit):
         yield problem_at(
             ("liquid", 0, "depth"),
             depth,
             f"it is {depth / unit:g} of the tank's extent, too {'thin' if depth < unit else 'deep'} to resolve",
-            allowed=f"{least * unit:g} to {most * unit:g} m",
+            allowed=f"{shown_range(least * unit, most * unit)} m",
         )
 
 
@@ -309,16 +310,16 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
         extent = min(high - low, upper - lower)
         if isinstance(outline, Disc) and outline.inner_radius:
             extent = outline.radius - outline.inner_radius
-        if extent < SHORTEST_BEAM * unit:
+        if not is_at_least(extent, SHORTEST_BEAM * unit):
             yield problem_at(
                 ("body", index, plate.shape_key),
                 getattr(plate, plate.shape_key),
                 "the plate is too narrow beside the tank to resolve both",
-                allowed=f"at least {SHORTEST_BEAM * unit:g} m",
+                allowed=f"at least {shown_least(SHORTEST_BEAM * unit)} m",
             )
             continue
         stiffness = plate.whole_rigidity / (density * gravity * extent**4)
-        if isfinite(stiffness) and not STIFFNESS_GROUP[0] <= stiffness <= STIFFNESS_GROUP[1]:
+        if isfinite(stiffness) and not is_within(stiffness, *STIFFNESS_GROUP):
             key = "flexural_rigidity" if plate.flexural_rigidity is not None else "youngs_modulus"
             yield problem_at(
                 ("body", index, key),
@@ -326,12 +327,12 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
                 f"D/(ρ g l⁴) = {stiffness:g} is beyond the resolution of double precision",
                 allowed=f"a group of {STIFFNESS_GROUP[0]:g} to {STIFFNESS_GROUP[1]:g}",
             )
-        if plate.whole_mass > MASS_GROUP[1] * density * extent:
+        if not is_at_most(plate.whole_mass, MASS_GROUP[1] * density * extent):
             yield problem_at(
                 ("body", index, plate.mass_key),
                 plate.whole_mass,
                 "the liquid is lost in the rounding of the plate",
-                allowed=f"up to {MASS_GROUP[1] * density * extent:.3g}",
+                allowed=f"up to {shown_most(MASS_GROUP[1] * density * extent)}",
             )
 
 

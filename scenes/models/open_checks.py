@@ -9,6 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
+from hydroelastic.scenes.models.limits import is_at_most, is_within, shown_most, shown_range
 from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
@@ -89,21 +90,21 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
             ("waves", [wave.omega for wave in analysis.request.waves] if isinstance(analysis, Motion) else ()),
             ("below", [value for value in [getattr(analysis, "below", None)] if value is not None]),
         ):
-            wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]
+            wrong = [value for value in values if value not in (0.0, inf) and not is_within(value, slowest, fastest)]
             if wrong:
                 yield problem_at(
                     ("analysis", index, key),
                     wrong[0],
                     f"its waves are too long or too short relative to {_drawn(scene)} for one mesh to resolve both",
-                    allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
+                    allowed=f"{shown_range(slowest, fastest)} rad/s",
                 )
-        late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
+        late = [time for time in getattr(analysis, "times", ()) if not is_at_most(time, 1.0 / slowest)]
         if late:
             yield problem_at(
                 ("analysis", index, "times"),
                 late[0],
                 f"the waves at such late times are too long relative to {_drawn(scene)}",
-                allowed=f"0 to {1.0 / slowest:.3g} s",
+                allowed=f"0 to {shown_most(1.0 / slowest)} s",
             )
 
 
@@ -254,12 +255,12 @@ def depths_can_be_meshed(scene: TankParts, extent: float) -> Iterator[InitErrorD
     """Yield finite depths beside which double precision has no places for cells of bodies of an extent, m."""
     deepest = _DEEPEST * extent
     for index, layer in enumerate(scene.layers):
-        if deepest < layer.depth < inf:
+        if layer.depth < inf and not is_at_most(layer.depth, deepest):
             yield problem_at(
                 ("liquid", index, "depth"),
                 layer.depth,
                 "the layer is too deep to mesh beside the bodies",
-                allowed=f"at most {deepest:g} m, or inf",
+                allowed=f"at most {shown_most(deepest)} m, or inf",
             )
 
 

@@ -18,14 +18,18 @@ if TYPE_CHECKING:
     from hydroelastic.physics.floats import RigidFloat
 
 
-# Points of a sweep are asked for theirs several times, one after the other.
-@lru_cache(maxsize=256)
 def physical_tank(scene: TankParts) -> Tank:
     """Return the tank, or the open water, of a scene; SI units, per metre of width or of revolution.
 
     Raises:
         ValueError: if a float cannot float at its level.
     """
+    return _physical_tank(scene, tuple(scene.state_of_file(body) for _, body in scene.floats))
+
+
+# Points of a sweep are asked for theirs several times, one after the other.
+@lru_cache(maxsize=256)
+def _physical_tank(scene: TankParts, _states_of_files: tuple[object, ...]) -> Tank:
     found = tank(
         length=scene.tank.length,
         gravity=scene.tank.gravity,

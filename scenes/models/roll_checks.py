@@ -8,6 +8,7 @@ from math import pi, radians, sqrt
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.limits import is_at_most, is_within, shown_most, shown_range
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.roll_parts import RollParts
 from hydroelastic.scenes.models.scene_model import LARGEST
@@ -117,15 +118,15 @@ def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
         return
     period = 2.0 * pi / frequency
     for number, (wave, _) in enumerate(scene.waves):
-        if not SHORTEST * period <= wave <= LONGEST * period:
+        if not is_within(wave, SHORTEST * period, LONGEST * period):
             place = ("wave", number, "period") if scene.train is None else ("train", "file")
-            allowed = f"{SHORTEST * period:g} to {LONGEST * period:g} s beside a natural period of {period:g} s"
+            allowed = f"{shown_range(SHORTEST * period, LONGEST * period)} s beside a natural period of {period:g} s"
             yield problem_at(
                 place, wave if scene.train is None else None, f"a wave of {wave:g} s is too far off", allowed=allowed
             )
             return
     damping = scene.damping(frequency)
-    if damping is not None and damping > HEAVIEST * frequency:
+    if damping is not None and not is_at_most(damping, HEAVIEST * frequency):
         key = "damping" if scene.roll.damping is not None else "damping_ratio"
         yield problem_at(("roll", key), getattr(scene.roll, key), "it is too large", allowed=f"n up to {HEAVIEST:g} k")
 
@@ -147,8 +148,8 @@ def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
         return
     last = scene.last_time(frequency)
     longest = MOST_PERIODS * 2.0 * pi / frequency
-    if last > min(longest, LARGEST):
-        allowed = f"up to {min(longest, LARGEST):g} s, or {MOST_PERIODS} natural periods if that is less"
+    if not is_at_most(last, min(longest, LARGEST)):
+        allowed = f"up to {shown_most(min(longest, LARGEST))} s, or {MOST_PERIODS} natural periods if that is less"
         yield problem_at(("output", "times"), last, "it is too late", allowed=allowed)
     elif scene.roll.quadratic_damping > 0.0 and _steps(scene, frequency, last) > MOST_STEPS:
         yield problem_at(

@@ -7,6 +7,7 @@ from math import inf
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.limits import is_within, shown_range
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP, touching
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -34,10 +35,10 @@ def round_plates_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
             ("mass_per_area", "m/(ρ a)", plate.whole_mass, below * plate.radius, MASS_GROUP),
         )
         for key, formula, value, scale, (least, most) in groups:
-            if value not in (0.0, inf) and not least <= value / scale <= most:
+            if value not in (0.0, inf) and not is_within(value, least * scale, most * scale):
                 yield problem_at(
                     ("body", index, key),
                     value,
                     f"{formula} = {value / scale:g} is beyond the resolution of double precision",
-                    allowed=f"{least * scale:.3g} to {most * scale:.3g} for this plate and liquid",
+                    allowed=f"{shown_range(least * scale, most * scale)} for this plate and liquid",
                 )

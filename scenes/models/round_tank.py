@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import kind_of_body
+from hydroelastic.scenes.models.limits import is_at_most, shown_most
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plate_checks import round_plates_are_in_range, round_plates_keep_apart
@@ -90,12 +90,12 @@ class RoundTankScene(OrderedTankScene):
 
 def _plates_lie_in_the_tank(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
     for index, plate in scene.plates:
-        if plate.radius > scene.tank.length * (1.0 + ROUND_OFF):
+        if not is_at_most(plate.radius, scene.tank.length):
             yield problem_at(
                 ("body", index, "radius"),
                 plate.radius,
                 "the plate is wider than the tank",
-                allowed=f"up to {scene.tank.length:g} m, the tank's radius",
+                allowed=f"up to {shown_most(scene.tank.length)} m, the tank's radius",
             )
 
 
@@ -114,12 +114,12 @@ def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
             ("tank", "outline"),
             None,
             f"it does not lead from {start} to the {'wall' if scene.is_revolved else 'right'}",
-            allowed=f"corners [{x}] with ascending {x[0]}, from {x[0]} = 0 to {x[0]} = {length:g} m",
+            allowed=f"corners [{x}] with ascending {x[0]}, from {x[0]} = 0 to {x[0]} = {length:.12g} m",
         )
     elif max(z for _, z in outline) > 0.0 or abs(min(z for _, z in outline) + depth) > 1e-9 * depth:
         yield problem_at(
             ("tank", "outline"),
             None,
-            f"its lowest corner does not lie {depth:g} m under the surface, the depth of the liquid, or one above it",
-            allowed=f"corners with {'z' if scene.is_revolved else 'y'} from {-depth:g} m, once at least, to 0",
+            f"its lowest corner does not lie {depth:.12g} m under the surface, the liquid's depth, or one above it",
+            allowed=f"corners with {'z' if scene.is_revolved else 'y'} from {-depth:.12g} m, once at least, to 0",
         )

@@ -12,6 +12,7 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
+from hydroelastic.scenes.models.limits import is_within, shown_least, shown_range
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -114,12 +115,12 @@ def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[
                 f"it is missing, and a {what} needs it",
                 allowed="[x, y], m",
             )
-        elif not body.start <= one.at[0] <= body.end:
+        elif not is_within(one.at[0], body.start, body.end):
             yield problem_at(
                 ("attachment", index, "at"),
                 None,
                 f"x = {one.at[0]:g} m does not lie on the {what}, [[body]] number {number}",
-                allowed=f"x from {body.start:g} to {body.end:g} m",
+                allowed=f"x from {shown_range(body.start, body.end)} m",
             )
         sideways = "surge" if scene.is_revolved else "sway"
         if any(matrix[1][1] for matrix in (one.stiffness, one.damping)) or one.quadratic_damping[1]:
@@ -150,12 +151,12 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
             body = scene.body[one - 1]
             # What bends about an axis is a round plate.
             place, x = (abs(at[0]), "|x|") if scene.is_revolved else (at[0], "x")
-            if not isinstance(body, AnyFloat) and not body.start <= place <= body.end:
+            if not isinstance(body, AnyFloat) and not is_within(place, body.start, body.end):
                 yield problem_at(
                     (*where, "at"),
                     None,
                     f"x = {at[0]:g} m does not lie on the {name_of_body(body)}, [[body]] number {one}",
-                    allowed=f"{x} from {body.start:g} to {body.end:g} m",
+                    allowed=f"{x} from {shown_range(body.start, body.end)} m",
                 )
         low = analysis.spectrum.band[0]
         if analysis.highest_omega is not None and analysis.highest_omega <= 1.1 * low:
@@ -163,7 +164,7 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 ("analysis", index, "highest_omega"),
                 analysis.highest_omega,
                 "hardly any waves are below it",
-                allowed=f"more than {1.1 * low:.4g} rad/s",
+                allowed=f"more than {shown_least(1.1 * low)} rad/s",
             )
 
 
@@ -196,12 +197,12 @@ def air_gaps_are_over_water(scene: TankParts) -> Iterator[InitErrorDetails]:
                     f"y = {gap.at[1]:g} m is not above the still water",
                     allowed=f"y above {level.height:g} m",
                 )
-            elif not low <= x <= high:
+            elif not is_within(x, low, high):
                 yield problem_at(
                     (*where, "at"),
                     None,
                     f"it lies {x:g} m from x = 0, outside what is drawn, within which the waves are known",
-                    allowed=f"{low:g} to {high:g} m",
+                    allowed=f"{shown_range(low, high)} m",
                     remedy="Widen drawn of [sea]" if scene.kind == "sea" else "Lengthen the tank",
                 )
             else:

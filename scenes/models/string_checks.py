@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.limits import is_at_most, shown_most
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import LARGEST
 from hydroelastic.scenes.models.string_parts import StringParts
@@ -97,7 +98,7 @@ def travel_time_is_finite(scene: StringParts) -> Iterator[InitErrorDetails]:
     """The travel time of a wave along the string is a finite number."""
     travel = scene.string.physical.travel_time
     longest = LARGEST / LONGEST["series"]
-    if travel > longest:
+    if not is_at_most(travel, longest):
         wrong = f"a wave would take {travel:g} s along the string"
         remedy = "Make the string shorter, or gravity stronger"
         yield problem_at(
@@ -113,7 +114,7 @@ def output_is_in_range(scene: StringParts) -> Iterator[InitErrorDetails]:
             ("output", "positions"),
             scene.positions[-1],
             "it lies above the upper end",
-            allowed=f"0 to length = {length:g} m",
+            allowed=f"0 to length = {length:.12g} m",
         )
     table = scene.table
     if table is not None and times[-1] > table[-1][0]:
@@ -121,16 +122,16 @@ def output_is_in_range(scene: StringParts) -> Iterator[InitErrorDetails]:
             ("output", "times"),
             times[-1],
             "the table of the motion ends before",
-            allowed=f"up to {table[-1][0]:g} s",
+            allowed=f"up to {shown_most(table[-1][0])} s",
         )
     number = LONGEST[scene.method]
     longest = number * scene.string.physical.travel_time
-    if times[-1] > longest:
+    if not is_at_most(times[-1], longest):
         yield problem_at(
             ("output", "times"),
             times[-1],
             f"it is more than {number:g} travel times of a wave",
-            allowed=f"up to {longest:g} s",
+            allowed=f"up to {shown_most(longest)} s",
         )
     if len(scene.positions) * len(times) > MOST_POINTS:
         yield problem_at(
@@ -151,14 +152,16 @@ def motion_is_not_too_fast(scene: StringParts) -> Iterator[InitErrorDetails]:
     if motion.kind == "smooth":
         rates.append((("motion", "rate"), motion.rate))
     for place, rate in rates:
-        if rate > limit:
+        if not is_at_most(rate, limit):
             yield problem_at(
-                place, rate, "it is too fast for waves on this string", allowed=f"up to {limit:g} 1/s here"
+                place, rate, "it is too fast for waves on this string", allowed=f"up to {shown_most(limit)} 1/s here"
             )
     heaviest = max(scene.string.resistance.bottom, scene.string.resistance.top)
     most = FASTEST / travel * scene.string.physical.inertia
-    if heaviest > most:
-        yield problem_at(("string", "resistance"), heaviest, "it is too large", allowed=f"up to {most:g} kg/(m·s) here")
+    if not is_at_most(heaviest, most):
+        yield problem_at(
+            ("string", "resistance"), heaviest, "it is too large", allowed=f"up to {shown_most(most)} kg/(m·s) here"
+        )
 
 
 STAGES = (

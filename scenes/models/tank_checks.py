@@ -12,6 +12,7 @@ from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.float_checks import floats_are_in_equilibrium
 from hydroelastic.scenes.models.float_rest_checks import CHECKS_OF_FLOATS_AT_REST
+from hydroelastic.scenes.models.limits import is_at_least, is_at_most, is_within, shown_least, shown_most, shown_range
 from hydroelastic.scenes.models.open_checks import (
     bodies_are_all_sections_or_all_solids,
     closed_tanks_have_no_open_water_keys,
@@ -75,19 +76,19 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
                 allowed=f"less than {lower:g}, or 0 for air",
                 remedy="List the liquids from the bottom up",
             )
-        elif upper / lower < LIGHTEST:
+        elif not is_at_least(upper, LIGHTEST * lower):
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
                 f"ρᵤ/ρₗ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
-                allowed=f"0, for air, or at least {LIGHTEST * lower:g} kg/m³ over this lower liquid",
+                allowed=f"0, for air, or at least {shown_least(LIGHTEST * lower)} kg/m³ over this lower liquid",
             )
-        elif (lower - upper) / lower < SMALLEST_DIFFERENCE:
+        elif not is_at_least(lower - upper, SMALLEST_DIFFERENCE * lower, beside=lower):
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
                 f"(ρₗ − ρᵤ)/ρₗ = {(lower - upper) / lower:.3g}: their difference is lost in rounding",
-                allowed=f"{SMALLEST_DIFFERENCE * lower:g} kg/m³ less than the lower liquid, at least",
+                allowed=f"{shown_least(SMALLEST_DIFFERENCE * lower)} kg/m³ less than the lower liquid, at least",
             )
 
 
@@ -130,12 +131,12 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
     least, most = DEPTH_TO_LENGTH
     for index, layer in enumerate(scene.layers):
         depth = layer.depth
-        if not least <= depth / length <= most:
+        if not is_within(depth, least * length, most * length):
             yield problem_at(
                 ("liquid", index, "depth"),
                 depth,
                 f"it is {depth / length:g} of the tank's length, too {'thin' if depth < length else 'deep'} to mesh",
-                allowed=f"{least * length:g} to {most * length:g} m ({least:g} to {most:g} tank lengths)",
+                allowed=f"{shown_range(least * length, most * length)} m ({least:g} to {most:g} tank lengths)",
             )
 
 
@@ -144,12 +145,12 @@ def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     length = length_scale_of_bodies(scene)
     least = DEPTH_TO_LENGTH[0] * length
     for index, layer in enumerate(scene.layers):
-        if layer.depth < least:
+        if not is_at_least(layer.depth, least):
             yield problem_at(
                 ("liquid", index, "depth"),
                 layer.depth,
                 "the layer is too thin to mesh beside the length that the bodies take up",
-                allowed=f"at least {least:g} m",
+                allowed=f"at least {shown_least(least)} m",
             )
     # One float alone has no length here: its section tells.
     if length:
@@ -162,15 +163,17 @@ def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     length = scene.tank.length
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
-        if beam.length > length * (1 + ROUND_OFF):
+        if not is_at_most(beam.length, length):
             key = beam.location_of(0, "length")[0]
-            yield problem_at(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
-        elif beam.end > length * (1 + ROUND_OFF):
+            yield problem_at(
+                ("body", index, key), beam.length, f"the beam is longer than the {place} ({shown_most(length)} m)"
+            )
+        elif not is_at_most(beam.end, length):
             yield problem_at(
                 ("body", index, "start"),
                 beam.start,
                 f"the beam ends at {beam.end:g} m, outside the {place}, of {length:g} m",
-                allowed=f"0 to {length - beam.length:g} m for this beam",
+                allowed=f"0 to {shown_most(length - beam.length)} m for this beam",
             )
 
 
@@ -199,12 +202,12 @@ def _beams_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
     shortest = SHORTEST_BEAM * length_scale_of_bodies(scene)
     others = "the others" if scene.is_open else "the tank"
     for index, beam in scene.beams:
-        if beam.length < shortest:
+        if not is_at_least(beam.length, shortest):
             yield problem_at(
                 ("body", index, "length"),
                 beam.length,
                 f"the beam is too short beside {others} for one mesh to resolve both",
-                allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+                allowed=f"at least {shown_least(shortest)} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
             )
 
 
@@ -217,12 +220,12 @@ def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
         for number, part in enumerate(beam.parts):
             for key, formula, scale, (least, most) in _groups(scene, beam):
                 value = getattr(part, key)
-                if not least <= value / scale <= most:
+                if not is_within(value, least * scale, most * scale):
                     yield problem_at(
                         ("body", index, *beam.location_of(number, key)),
                         value,
                         f"{formula} = {value / scale:g} is beyond the resolution of double precision",
-                        allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
+                        allowed=f"{shown_range(least * scale, most * scale)} for this beam and liquid",
                     )
         yield from _joints_are_in_range(scene, index, beam)
 
@@ -231,17 +234,18 @@ def _joints_are_in_range(scene: TankParts, index: int, beam: AnyBeam) -> Iterato
     below, above = scene.densities_at(scene.level_of(beam))
     least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
     for number, joint in enumerate(beam.joints):
-        if 0.0 < joint.rotational_stiffness < least:
+        if joint.rotational_stiffness > 0.0 and not is_at_least(joint.rotational_stiffness, least):
             yield problem_at(
                 ("body", index, "joints", number, "rotational_stiffness"),
                 joint.rotational_stiffness,
                 "it is too small to differ from zero in double precision",
-                allowed=f"0 for a hinge, or at least {least:.3g} for this beam and liquid",
+                allowed=f"0 for a hinge, or at least {shown_least(least)} for this beam and liquid",
             )
 
 
 def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
     negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * length_scale_of_bodies(scene)
+    span = f"{SHORTEST_BEAM:g} of {_span_name(scene)}"
     for index, beam in scene.beams:
         steps = list(accumulate(part.length for part in beam.parts[:-1]))
         for number, joint in enumerate(beam.joints):
@@ -258,12 +262,16 @@ def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
                 yield problem_at(
                     where, joint.at, "there is another joint at this place", remedy="Leave one of them out"
                 )
-            elif any(negligible < abs(joint.at - other) < nearest for other in (0.0, beam.length, *steps, *others)):
+            elif any(
+                abs(joint.at - other) > negligible
+                and not is_at_least(abs(joint.at - other), nearest, beside=beam.length)
+                for other in (0.0, beam.length, *steps, *others)
+            ):
                 yield problem_at(
                     where,
                     joint.at,
                     "it is too close to an end, to a step of the beam or to another joint for one mesh to resolve both",
-                    allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+                    allowed=f"at least {shown_least(nearest)} m between them ({span})",
                 )
 
 
@@ -271,12 +279,12 @@ def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
     shortest = SHORTEST_BEAM * length_scale_of_bodies(scene)
     for index, beam in scene.beams:
         for number, part in enumerate(beam.sections):
-            if part.length < shortest:
+            if not is_at_least(part.length, shortest):
                 yield problem_at(
                     ("body", index, "sections", number, "length"),
                     part.length,
                     "the section is too short for one mesh to resolve it together with the rest",
-                    allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+                    allowed=f"at least {shown_least(shortest)} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
                 )
 
 
@@ -306,7 +314,7 @@ def _guided_beams_cover_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]
                 ("body", index, "ends"),
                 beam.ends,
                 "ends are guided by the walls, but this beam does not reach from wall to wall",
-                allowed=f'"free", or start = 0 and length = {scene.tank.length:g}',
+                allowed=f'"free", or start = 0 and length = {scene.tank.length:.12g}',
             )
 
 

@@ -207,6 +207,13 @@ class TankParts(SceneModel):
         """The folder of the scene file, or the current one."""
         return self._folder
 
+    def state_of_file(self, body: AnyFloat) -> tuple[int, int] | None:
+        """Time of the last change, ns, and size of the file of a float, by which changes are seen; ``None`` without."""
+        if body.file is None:
+            return None
+        state = (self.folder / body.file).stat()
+        return state.st_mtime_ns, state.st_size
+
     @property
     def source(self) -> str | None:
         """Name of the scene file in messages about a user mesh; ``None`` if there is no file."""

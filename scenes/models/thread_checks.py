@@ -8,6 +8,7 @@ from math import dist, hypot
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.limits import is_at_least
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.thread_analyses import ThreadMotion, ThreadStability
 from hydroelastic.scenes.models.thread_motion_checks import motion_can_be_followed
@@ -107,7 +108,7 @@ def bodies_lie_on_the_thread(scene: ThreadParts) -> Iterator[InitErrorDetails]:
                 allowed=f"less than length = {length:.12g} m",
                 remedy="What hangs on an end belongs to [ends]",
             )
-        elif min(place, length - place) < LEAST_DISTANCE * length:
+        elif not is_at_least(min(place, length - place), LEAST_DISTANCE * length, beside=length):
             yield problem_at(
                 ("load", number, "at"),
                 place,

@@ -15,6 +15,7 @@ from hydroelastic.physics.plate import Bounds, Disc, Outline, Rectangle, Strip, 
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.scenes.models.level_tank_parts import LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import needs_volume, physical_plan
+from hydroelastic.scenes.models.limits import is_at_most, shown_most
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.volume_floats import UnfloatableError, VolumeFloat
 
@@ -117,8 +118,8 @@ def floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             return
     columns = [column.outline(middle) for column in scene.column]
     for index, body, solid in solids:
-        if solid.draught >= depth * (1.0 - LEAST_DEPTH):
-            most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
+        if not is_at_most(solid.draught, depth * (1.0 - LEAST_DEPTH)):
+            most = f"up to {shown_most(depth * (1.0 - LEAST_DEPTH))} m"
             below = "below" if len(scene.liquid) == 1 else "of the upper one below"
             yield problem_at(("body", index, "draught"), solid.draught, f"it leaves no liquid {below}", allowed=most)
         if min(solid.draught, *solid.size) < LEAST_FLOAT * plan.unit:

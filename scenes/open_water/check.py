@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, pi, sqrt
+from math import ceil, isfinite, pi, sqrt
 
-from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.output.open_water.tables import infinite_draught_message
@@ -27,6 +26,9 @@ from hydroelastic.scenes.models.time_analyses import Release
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
 
+# Lowest frequency of a search for resonances over the highest, roughly.
+_LOWEST_TONE = 0.1
+
 
 def check_open(scene: TankParts) -> Iterator[Section]:
     """Yield the description of open water, the analyses and the outgoing waves; a decay is meshed, to estimate its
@@ -34,29 +36,9 @@ def check_open(scene: TankParts) -> Iterator[Section]:
 
     Args:
         scene: a validated scene.
-
-    Raises:
-        SceneError: if it cannot be meshed.
     """
-    if scene.floats:
-        _require_mesh(scene)
     waves = Section(title="Outgoing waves", lines=tuple(open_waves(scene)))
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
-
-
-def _require_mesh(scene: TankParts) -> None:
-    # They bring dolfinx and gmsh, which take a second to import.
-    from hydroelastic.fem.open_water.field_model import ANGLE, Band
-    from hydroelastic.fem.open_water.model_building import first_mesh, first_resolution
-
-    water, tolerance = physical_tank(scene), scene.accuracy.tolerance
-    # Whether there is a mesh does not depend on the frequency.
-    asked = _frequencies(scene) or [sqrt(water.gravity / (scene.stretch[1] - scene.stretch[0]))]
-    band = Band(lowest=min(asked), highest=max(asked))
-    try:
-        first_mesh(water, tolerance, band, first_resolution(water, tolerance, band), angle=ANGLE)
-    except MeshError as error:
-        raise cannot_be_meshed(error) from error
 
 
 def open_requests(scene: TankParts) -> Iterator[str]:
@@ -66,9 +48,49 @@ def open_requests(scene: TankParts) -> Iterator[str]:
         yield f"  {number}. {_request(scene, analysis)}"
         if isinstance(analysis, Decay):
             yield f"     {decay_cost_words(scene, analysis)}"
+    yield from _sizes(scene)
     infinite = infinite_draught_comparison(scene)
     if infinite is not None:
         yield infinite_draught_message(infinite)
+
+
+def _sizes(scene: TankParts) -> Iterator[str]:
+    """Yield the size of the first mesh of the analyses over the frequency, which is made.
+
+    Raises:
+        SceneError: if no mesh can be made.
+    """
+    bands = [band for one in scene.analyses if (band := getattr(one.request, "band", None)) is not None]
+    bands += [
+        (_LOWEST_TONE * one.below, one.below) for one in scene.analyses if isinstance(one, Resonance) and one.below
+    ]
+    over_frequency = bool(bands)
+    if not bands and not scene.floats:
+        return
+    # These need dolfinx, which takes a second to import.
+    from hydroelastic.fem.open_water.cost import first_size
+    from hydroelastic.fem.open_water.field_model import Band
+    from hydroelastic.meshes.tagged_mesh import MeshError
+
+    water = physical_tank(scene)
+    water = water.of_order(min(water.orders))
+    # Whether there is a mesh does not depend on the frequency.
+    bands = bands or [2 * (sqrt(water.gravity / (scene.stretch[1] - scene.stretch[0])),)]
+    band = Band(lowest=min(low for low, _ in bands), highest=max(high for _, high in bands))
+    try:
+        cells, degree, unknowns = first_size(water, scene.accuracy.tolerance, band)
+    except MeshError as error:
+        raise cannot_be_meshed(error) from error
+    if not over_frequency:
+        return
+    orders = ""
+    if scene.is_revolved and any(isinstance(one, Response | Spectrum) for one in scene.analyses):
+        radius = max(right for _, right in (body.waterplane for body in water.bodies))
+        orders = f", in each of about {ceil(band.wavenumbers(water)[1] * radius) + 2} azimuthal orders"
+    yield (
+        f"First mesh, for frequencies from {band.lowest:.4g} to {band.highest:.4g} rad/s: degree {degree}, "
+        f"{cells} triangles, {unknowns} unknowns of ψ{orders}."
+    )
 
 
 def decay_cost_words(scene: TankParts, analysis: Decay) -> str:
@@ -112,7 +134,7 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
             f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "
             f"{analysis.waves_from}, {analysis.words}"
         )
-    return _resonances(analysis)
+    return _resonances(scene, analysis)
 
 
 def _release(body: int, start: Release) -> str:
@@ -123,10 +145,12 @@ def _release(body: int, start: Release) -> str:
     return f"float {body} is released at {motions}"
 
 
-def _resonances(analysis: Resonance) -> str:
+def _resonances(scene: TankParts, analysis: Resonance) -> str:
     which = f"at most {analysis.count} with Re ω below {analysis.below:g} rad/s" if analysis.below else "the lowest"
     how_many = "" if analysis.below else f" {analysis.count}"
-    return f"resonance: {which}{how_many}, with −Im ω up to {analysis.largest_damping:g} Re ω"
+    unasked = (scene.beams or scene.plates) and not analysis.below
+    short = "; elastic tones among waves far shorter than the bodies only with below" if unasked else ""
+    return f"resonance: {which}{how_many}, with −Im ω up to {analysis.largest_damping:g} Re ω{short}"
 
 
 def _span(values: tuple[float, ...], what: str) -> str:
@@ -136,19 +160,15 @@ def _span(values: tuple[float, ...], what: str) -> str:
     return f"{len(values)} {plural} from {min(values):g} to {max(values):g}"
 
 
-def _frequencies(scene: TankParts) -> list[float]:
-    return [
+def open_waves(scene: TankParts) -> Iterator[str]:
+    """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
+    asked = [
         omega
         for analysis in scene.analyses
         if isinstance(analysis, Radiation | Response)
         for omega in analysis.omega
         if omega > 0.0 and isfinite(omega)
     ]
-
-
-def open_waves(scene: TankParts) -> Iterator[str]:
-    """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
-    asked = _frequencies(scene)
     layers = two_layers(physical_tank(scene))
     for omega in sorted({min(asked), max(asked)}) if asked else ():
         lengths = [f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(layers, omega)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import hypot, inf
 from typing import TypeAlias
 
@@ -20,7 +20,7 @@ from hydroelastic.output.sections import Row, Section
 from hydroelastic.output.string import quantities as string
 from hydroelastic.output.tank import quantities as tank
 from hydroelastic.output.thread import quantities as thread
-from hydroelastic.physics.dofs import Dof
+from hydroelastic.physics.dofs import Dof, Turn
 from hydroelastic.scenes.models.body_kinds import kind_of_sea_body
 from hydroelastic.scenes.report.families import Family, family_of, reading_of
 
@@ -100,10 +100,17 @@ def _modes(modes: list[Reading], omega: Quantity, kind: Quantity) -> Iterator[Ro
 def _open_water(summary: Reading) -> Iterator[Row]:
     """The largest values of each analysis, and the slowest resonances."""
     is_whole = any(kind_of_sea_body(body) in ("plate", "solid") for body in summary[SCENE]["body"])
+
+    def motions(table: Reading) -> Iterator[tuple[int, Dof]]:
+        """The first motions of an analysis; the pitch of solids and plates is an angle, that of beams is none."""
+        for place, name in enumerate(table[DOFS][:_MOST_MODES]):
+            yield place, Turn(name) if is_whole and Dof(name).kind == "pitch" else Dof(name)
+
     for table in summary[water.RADIATION]:
-        yield from _largest_damping(table, is_whole)
-    for table in summary[water.RESPONSE]:
-        yield from _largest_motions(table) if is_whole else _largest_reflections(table)
+        yield from _largest_damping(table, motions(table), is_whole)
+    # Results that were written by earlier versions lack them.
+    for table in (one for one in summary[water.RESPONSE] if water.LARGEST in one):
+        yield from _largest_motions(table, motions(table)) if is_whole else _largest_reflections(table)
     for table in summary[water.RESONANCE]:
         found = zip(table[water.RESONANCE_OMEGA], table[water.RESONANCE_ERROR], strict=True)
         for number, ((frequency, growth), error) in enumerate(list(found)[:_MOST_MODES], 1):
@@ -118,7 +125,7 @@ def _open_water(summary: Reading) -> Iterator[Row]:
         # At late times the motion has decayed: the largest swing to the other side is reported instead.
         sign = -1.0 if initial[released] > 0.0 else 1.0
         back = max(range(len(times)), key=lambda place: sign * displacement[place][released])
-        motion = Dof(dofs[released])
+        motion = Turn(dofs[released]) if is_whole and Dof(dofs[released]).kind == "pitch" else Dof(dofs[released])
         name = f"{motion.words} largest swing to the other side after release, at t = {times[back]:.4g} s"
         name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, displacement[back][released], table[water.DECAY_ERROR][back])
@@ -128,44 +135,42 @@ def _open_water(summary: Reading) -> Iterator[Row]:
             yield _declared(response, irregular.SIGNIFICANT_AMPLITUDE, f"{name}, {response[irregular.UNIT]}")
     for table in summary[water.IMPULSE_RESPONSE]:
         added, error = table[over_time.INFINITE_FREQUENCY_ADDED_MASS], table[over_time.IMPULSE_ERROR]
-        for place, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES])):
-            unit = "kg·m" if dof.is_rotation else "kg/m"
+        for place, dof in motions(table):
+            unit = ("kg", "kg·m²")[dof.is_rotation] if is_whole else ("kg/m", "kg·m")[dof.is_rotation]
             yield _row(f"added mass of {dof.words} at infinite frequency, {unit}", added[place][place], error)
     for table in summary[water.MOTION]:
         largest, error = table[over_time.LARGEST], table[over_time.MOTION_ERROR]
-        for place, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES])):
+        for place, dof in motions(table):
             yield _row(f"largest {dof.words} in waves, {'rad' if dof.is_rotation else 'm'}", largest[place], error)
 
 
 def _largest_reflections(table: Reading) -> Iterator[Row]:
     """The largest reflection of each incident wave."""
-    waves = table[water.WAVES]
+    waves, largest = table[water.WAVES], table[water.LARGEST_REFLECTION]
     for wave, name in enumerate(waves):
-        sizes = [hypot(*row[wave][wave]) for row in table[water.REFLECTION]]
-        place = sizes.index(max(sizes))
         which = f" of {name} waves" if len(waves) > 1 else ""
-        quantity = f"largest reflection |R|{which}, at ω = {table[water.OMEGA][place]:.4g} rad/s"
-        yield _of_absolute(quantity, sizes[place], table[water.RESPONSE_ERROR][place])
+        value, omega, error = (largest[water.LARGEST_REFLECTION[key]][wave] for key in ("value", "omega", "error"))
+        yield _of_absolute(f"largest reflection |R|{which}, at ω = {omega:.4g} rad/s", value, error)
 
 
-def _largest_motions(table: Reading) -> Iterator[Row]:
+def _largest_motions(table: Reading, motions: Iterable[tuple[int, Dof]]) -> Iterator[Row]:
     """The largest motions of solids in waves of unit amplitude."""
-    for motion, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES])):
-        sizes = [hypot(*row[0][motion]) for row in table[water.AMPLITUDES]]
-        place = sizes.index(max(sizes))
-        quantity = f"largest {dof.words} in waves, at ω = {table[water.OMEGA][place]:.4g} rad/s"
+    largest = table[water.LARGEST]
+    values, omegas, errors = (largest[water.LARGEST[key]][0] for key in ("value", "omega", "error"))
+    for place, dof in motions:
+        quantity = f"largest {dof.words} in waves, at ω = {omegas[place]:.4g} rad/s"
         unit = "rad/m" if dof.is_rotation else "m/m"
-        yield _of_absolute(f"{quantity}, {unit}", sizes[place], sizes[place] * table[water.RESPONSE_ERROR][place])
+        yield _of_absolute(f"{quantity}, {unit}", values[place], errors[place])
 
 
-def _largest_damping(table: Reading, is_whole: bool) -> Iterator[Row]:
-    """The largest damping of each motion of a rigid body, at finite frequencies."""
+def _largest_damping(table: Reading, motions: Iterable[tuple[int, Dof]], is_whole: bool) -> Iterator[Row]:
+    """The largest damping of each motion of a rigid body, at the finite frequencies that were requested."""
     omegas, all_damping = table[water.OMEGA], table[water.RADIATION_DAMPING]
     finite = [place for place, omega in enumerate(omegas) if omega != "inf"]
-    for motion, dof in enumerate(map(Dof, table[DOFS][:_MOST_MODES] if finite else ())):
+    for motion, dof in motions if finite else ():
         damping = [all_damping[place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
-        quantity = f"largest radiation damping of {dof.words}, at ω = {omegas[place]:.4g} rad/s"
+        quantity = f"largest radiation damping of {dof.words}, of the requested ω at {omegas[place]:.4g} rad/s"
         units = ("kg/s", "kg·m²/s") if is_whole else ("kg/(m·s)", "kg·m/s")
         yield _row(f"{quantity}, {units[dof.is_rotation]}", max(damping), table[water.RADIATION_ERROR][place])
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -13,6 +12,7 @@ import numpy as np
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.plain import plain
+from hydroelastic.scenes.overrides import parsed_toml
 
 MOST_POINTS = 100_000
 """Of one sweep."""
@@ -67,6 +67,8 @@ class Grid:
         twice = next((key for key in keys if keys.count(key) > 1), None)
         if not keys:
             raise SceneError(_refused("", "nothing is varied", _EXAMPLE_IN_PYTHON))
+        if "kind" in keys:
+            raise SceneError(_refused("kind", "kinds of scenes have different results", "Sweep each kind by itself"))
         if twice is not None:
             raise SceneError(_refused(twice, "the key stands twice", "Name all of its values at once"))
         if len(self) > MOST_POINTS:
@@ -159,7 +161,7 @@ def _value(text: str, entry: str) -> Any:
     if not entry:
         raise SceneError(_refused(text, "an entry is empty"))
     try:
-        return tomllib.loads(f"value = {entry}")["value"]
+        return parsed_toml(f"value = {entry}")["value"]
     except ValueError:
         # An unquoted word is a text, as in --set.
         return entry

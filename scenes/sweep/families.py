@@ -1,16 +1,20 @@
-"""Points of a sweep whose tanks have one liquid: it is meshed and solved once for all of them."""
+"""Points of a sweep: what identifies them, and those whose tanks have one liquid, meshed and solved once for all."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from math import ceil
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
 
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.read import Scene, read_scene
 
 if TYPE_CHECKING:
     from hydroelastic.fem.tank.liquids import SharedLiquids
@@ -21,6 +25,33 @@ _FEWEST = 4
 _FOR_EACH = 32
 # Points that are solved together. Measured: with half as many, or twice, a sweep takes as long; more take more memory.
 _TOGETHER = 64
+
+
+def identity(scene: Scene) -> str:
+    """Return what identifies a scene: its values, and hashes of the bytes of all files that it names, of its section
+    too."""
+    texts = [scene.model_dump_json()]
+    for named in _paths(scene):
+        file = scene.folder / named
+        # The names of the parts of a mesh, and the numbers of XDMF, stand in files beside it.
+        beside = (file.with_name(f"{file.name}.names.json"), file.with_suffix(".h5"))
+        texts += [f"{one.name} {sha256(one.read_bytes()).hexdigest()}" for one in (file, *beside) if one.is_file()]
+    if scene.kind == "roll" and scene.section_file is not None:
+        with suppress(SceneError):
+            texts.append(identity(read_scene(scene.section_file)))
+    return "\n".join(texts)
+
+
+def _paths(value: Any) -> Iterator[Path]:
+    """All paths among the values of a scene."""
+    if isinstance(value, Path):
+        yield value
+    elif isinstance(value, BaseModel):
+        for _, entry in value:
+            yield from _paths(entry)
+    elif isinstance(value, tuple):
+        for entry in value:
+            yield from _paths(entry)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +101,7 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
             continue
         places = _places_of_sample(len(own))
         sample = tuple(own[place] for place in places)
-        family = Family(name=_hash(repr(liquid), *(one.model_dump_json() for one in sample)), sample=sample)
+        family = Family(name=_hash(repr(liquid), *map(identity, sample)), sample=sample)
         known[liquid] = family
         for batch, first in enumerate(range(0, len(own), _TOGETHER)):
             batched = range(first, min(first + _TOGETHER, len(own)))

@@ -22,16 +22,16 @@ JOURNAL = "sweep.journal"
 class Journal:
     """Points by their keys, see `point_key`; points of other sweeps in the same file stay there, and are not used."""
 
-    def __init__(self, descriptor: int | None = None) -> None:
+    def __init__(self, descriptor: int | None = None, file: Path | None = None) -> None:
         """Read an open file to its end; without one, keep the points in memory only."""
-        self._descriptor = descriptor
+        self._descriptor, self._file = descriptor, file
         self._points: dict[str, SolvedPoint] = {}
         if descriptor is None:
             return
-        with open(descriptor, encoding="utf-8", closefd=False) as file:
-            for line in file:
-                # A killed process may leave half a line.
-                with contextlib.suppress(ValueError, LookupError, TypeError, AttributeError):
+        with open(descriptor, "rb", closefd=False) as lines:
+            for line in lines:
+                # A killed process may leave half a line, which may end within a character.
+                with contextlib.suppress(ValueError, LookupError, TypeError, AttributeError, RecursionError):
                     entry = json.loads(line)
                     self._points[entry["key"]] = SolvedPoint.from_json(entry["point"])
 
@@ -48,11 +48,23 @@ class Journal:
         self._points = MPI.COMM_WORLD.bcast(self._points)
 
     def add(self, key: str, point: SolvedPoint) -> None:
-        """Keep a point; what is on disk outlives this process."""
+        """Keep a point; what is on disk outlives this process.
+
+        Raises:
+            SceneError: if it cannot be written.
+        """
         self._points[key] = point
-        if self._descriptor is not None:
-            line = json.dumps({"key": key, "point": point.as_json()}, ensure_ascii=False)
-            os.write(self._descriptor, f"\n{line}".encode())
+        if self._descriptor is None:
+            return
+        line = f"\n{json.dumps({'key': key, 'point': point.as_json()}, ensure_ascii=False)}".encode()
+        try:
+            # On a disk that becomes full a part is written.
+            while line:
+                line = line[os.write(self._descriptor, line) :]
+        except OSError as error:
+            wrong = f"a point that is solved cannot be written ({error.strerror})"
+            remedy = "Make room, and start the sweep again: the points before it are kept"
+            raise SceneError(Problem(key=f"journal {self._file}", wrong=wrong, remedy=remedy)) from error
 
 
 @contextlib.contextmanager
@@ -93,6 +105,6 @@ def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Jo
             raise SceneError(problem) from error
         except OSError:  # Some network file systems have no locks.
             pass
-        yield Journal(descriptor)
+        yield Journal(descriptor, folder / JOURNAL)
     finally:
         os.close(descriptor)

@@ -20,7 +20,7 @@ from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import Scene
-from hydroelastic.scenes.sweep.families import Family, liquids_of
+from hydroelastic.scenes.sweep.families import Family, identity, liquids_of
 
 Status = Literal["ok", "unconverged", "failed"]
 
@@ -99,9 +99,8 @@ class Task:
 
 def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
-    mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
     content = [options.estimates, options.follow, str(options.pictures or ""), family and family.name, versions()]
-    return sha256(f"{scene.model_dump_json()}{json.dumps(content, sort_keys=True)}".encode() + mesh).hexdigest()
+    return sha256(f"{identity(scene)}{json.dumps(content, sort_keys=True)}".encode()).hexdigest()
 
 
 def solve_points(tasks: Sequence[Task], options: PointOptions) -> list[SolvedPoint]:

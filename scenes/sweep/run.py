@@ -162,6 +162,10 @@ class _Solver:
         ordered = sorted(tasks.values(), key=lambda task: task.family.name if task.family is not None else "")
         self.resumed += sum(key in self.journal for key in keys)
         for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
+            if point_key(task.scene, of_points, task.family) != task.key:
+                wrong = "a file that the scene names has changed while the sweep was running"
+                remedy = "Start the sweep again: it solves all points with the new file"
+                raise SceneError(Problem(wrong=wrong, remedy=remedy), file=self.source.file)
             self.journal.add(task.key, point)
             if number == 1 and point.summary is not None:
                 kind = runner_of(task.scene).kind

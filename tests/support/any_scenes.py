@@ -148,7 +148,7 @@ def damaged(draw: st.DrawFn, family: str) -> Document:
     document = deepcopy(draw(st.one_of(fresh, shipped, shipped)))
     if draw(st.booleans()):
         # Good but for some numbers: what must fit together is reached only so.
-        numbers = [place for place in _places(document) if isinstance(place[0][place[1]], float)]
+        numbers = [place for place in places(document) if isinstance(place[0][place[1]], float)]
         for place in draw(st.lists(st.sampled_from(numbers), max_size=3)) if numbers else ():
             _damage(draw, "scale", place, place)
         return document
@@ -156,11 +156,11 @@ def damaged(draw: st.DrawFn, family: str) -> Document:
         graft = draw(fresh)
         document |= {key: graft[key] for key in draw(st.lists(st.sampled_from(list(graft)), max_size=2))}
     for _ in range(draw(st.integers(0, 3))):
-        places = list(_places(document))
-        if not places:
+        found = list(places(document))
+        if not found:
             break
         what = draw(st.sampled_from(["leave out", "odd", "unknown", "double", "swap", "scale"]))
-        _damage(draw, what, draw(st.sampled_from(places)), draw(st.sampled_from(places)))
+        _damage(draw, what, draw(st.sampled_from(found)), draw(st.sampled_from(found)))
     return document
 
 
@@ -186,14 +186,14 @@ _factors = st.one_of(
 )
 
 
-def _places(value: Any) -> Iterator[tuple[Any, Any]]:
+def places(value: Any) -> Iterator[tuple[Any, Any]]:
     """All places of a document: a table or a list, and a key or a number."""
     items = (
         list(value.items()) if isinstance(value, dict) else list(enumerate(value)) if isinstance(value, list) else []
     )
     for key, inner in items:
         yield value, key
-        yield from _places(inner)
+        yield from places(inner)
 
 
 def holds_nan(value: Any) -> bool:

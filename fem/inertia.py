@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 
 import numpy as np
 from petsc4py import PETSc
@@ -11,7 +10,6 @@ from petsc4py import PETSc
 from hydroelastic.fem.direct import configure_indefinite
 from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.shared_answer import SharedAnswer
 from hydroelastic.fem.solver_error import EigenSolverError
 
 # Measured: unless SciPy is there already, its import takes longer than the eigenvalues of so small a matrix. By either
@@ -88,10 +86,6 @@ def _densities(pencil: CoupledPencil) -> np.ndarray:
 def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float) -> int | None:
     """As `count_below`, by Sylvester's law from K − σ(M + M_a) bordered by the volume constraints; ``None`` where σ is
     an eigenvalue to working precision."""
-    if isinstance(answer, SharedAnswer):
-        (count,) = shared_counts([pencil], answer, [eigenvalue])
-        if count is not None:
-            return count
     block, bodies = -eigenvalue * answer.added_mass, pencil.body_size
     block[:bodies, :bodies] -= eigenvalue * pencil.body_mass
     # Scaled so that stiff shapes and small elements weigh alike.
@@ -105,30 +99,6 @@ def _dense_count(pencil: CoupledPencil, answer: LiquidAnswer, eigenvalue: float)
     block = scale[:, None] * block * scale
     negative = _negative(np.block([[block, volumes.T], [volumes, corner]]))
     return None if negative is None else negative - len(pencil.constraints) - pencil.zero_mode_count
-
-
-def shared_counts(
-    pencils: Sequence[CoupledPencil], answer: SharedAnswer, eigenvalues: Sequence[float]
-) -> list[int | None]:
-    """Return the same of problems that share the answer of their liquid, with the surfaces eliminated in their gravity
-    modes; ``None`` where σ is close to one of these or an eigenvalue to working precision."""
-    shifts, bodies = np.array(eigenvalues), answer.bodies
-    surfaces, left, apart = answer.eliminated(shifts)
-    left[:, :bodies, :bodies] -= shifts[:, None, None] * np.array([one.body_mass for one in pencils])
-    diagonal = np.arange(bodies)
-    left[:, diagonal, diagonal] += np.array([one.body_stiffness for one in pencils])
-    volumes = pencils[0].volumes[:, :bodies]
-    left[:, bodies:, :bodies] += volumes
-    left[:, :bodies, bodies:] += volumes.T
-    left[~apart] = 0.0
-    scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diagonal(left, axis1=1, axis2=2)), np.finfo(float).tiny))
-    signs = np.linalg.eigvalsh(scale[:, :, None] * left * scale[:, None, :])
-    certain = apart & (np.abs(signs).min(axis=1, initial=np.inf) > np.finfo(float).eps)
-    below = surfaces + np.count_nonzero(signs < 0.0, axis=1)
-    return [
-        int(count) - len(pencil.constraints) - pencil.zero_mode_count if sure else None
-        for pencil, count, sure in zip(pencils, below, certain, strict=True)
-    ]
 
 
 def _negative(matrix: np.ndarray) -> int | None:

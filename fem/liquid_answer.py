@@ -29,27 +29,6 @@ class LiquidAnswer:
     scaled: np.ndarray
 
 
-@dataclass(frozen=True, kw_only=True)
-class Projection:
-    """A basis of the surfaces; the unknowns of bodies stay as they are.
-
-    Attributes:
-        basis: scaled unknowns of the surfaces in the basis, orthonormal columns, shape (surface unknowns, vectors).
-        root: R times the basis: unknowns of the surfaces in it.
-        volumes: of the constraints, in the scaled unknowns of the surfaces, shape (constraints, surface unknowns).
-        projected_volumes: the same in the basis, shape (constraints, vectors).
-        columns: scaled M_a times bodies and basis, shape (n, bodies + vectors).
-        kinetics: scaled M_a projected on them, shape (bodies + vectors, bodies + vectors).
-    """
-
-    basis: np.ndarray
-    root: np.ndarray
-    volumes: np.ndarray
-    projected_volumes: np.ndarray
-    columns: np.ndarray
-    kinetics: np.ndarray
-
-
 def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, restoring: np.ndarray) -> LiquidAnswer:
     """Return an answer.
 

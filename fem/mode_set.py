@@ -59,10 +59,8 @@ class ModeSet:
         converged: number of converged eigenpairs.
         iterations: restarts of the Krylov–Schur method; LAPACK counts as one.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
-        projection: relative error of each λ by the projection of the surfaces; ``None`` without one.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
         bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
-        liquid_errors: see `DenseSolution.liquid_errors`.
     """
 
     eigenvalues: np.ndarray
@@ -74,7 +72,5 @@ class ModeSet:
     iterations: int
     solves: int
     growing: tuple[Mode, ...] = ()
-    projection: np.ndarray | None = None
     eigenvectors: tuple[PETSc.Vec, ...] = ()
     bounds: np.ndarray | None = None
-    liquid_errors: Callable[[list[int]], np.ndarray] | None = None

@@ -16,8 +16,6 @@ from hydroelastic.fem.liquid_answer import LiquidAnswer
 from hydroelastic.fem.mode_energies import energy_shares, residual_of
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.shared_answer import SharedAnswer
-from hydroelastic.fem.shared_modes import solved_together
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
@@ -27,8 +25,6 @@ if TYPE_CHECKING:
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
-PROJECTED = 1e-11
-"""Largest relative error of a λ by the projection of a shared answer; above it the whole problem is solved."""
 
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
@@ -52,7 +48,6 @@ def solve_modes(
     shapes: int | None = None,
     tolerance: float = 1e-12,
     products: Products = as_made,
-    known: DenseSolution | None = None,
 ) -> ModeSet:
     """Lowest modes of the coupled problem.
 
@@ -66,7 +61,6 @@ def solve_modes(
         shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
         products: of the operator, which may be read instead of made; see `fem.checkpoint`.
-        known: the solution with a shared answer of the liquid, if it was made together with others.
 
     Returns:
         The modes (collective).
@@ -75,7 +69,7 @@ def solve_modes(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if pencil.answer is not None and not len(pencil.unstable):
-        return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance, known)
+        return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance)
     from slepc4py import SLEPc  # slow to import
 
     kinetics = CondensedKinetics(pencil)
@@ -130,20 +124,11 @@ def _visible(inverses: np.ndarray) -> int:
 
 
 def _answered_modes(
-    pencil: CoupledPencil,
-    answer: LiquidAnswer,
-    asked: tuple[int, int | None],
-    tolerance: float,
-    known: DenseSolution | None,
+    pencil: CoupledPencil, answer: LiquidAnswer, asked: tuple[int, int | None], tolerance: float
 ) -> ModeSet:
     """A number of the lowest modes, and their shapes, where the answer of the liquid is known."""
     count, shapes = asked
     count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
-    if isinstance(answer, SharedAnswer) and count:
-        shared = known or solved_together([pencil], answer, count)[0]
-        assert shared.projection is not None
-        if shared.projection[:count].max() <= PROJECTED:
-            return _mode_set(pencil, answer, shared, min(count, _visible(shared.inverses)), shapes)
     return _mode_set(pencil, answer, *_dense_solution(DenseModes(pencil, answer), count, tolerance), shapes)
 
 
@@ -204,8 +189,6 @@ def _mode_set(
         converged=count,
         iterations=found.iterations,
         solves=pencil.size,
-        projection=found.projection[:count] if found.projection is not None else None,
-        liquid_errors=found.liquid_errors,
     )
 
 

@@ -26,7 +26,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank, read_scene, scene_source
 from hydroelastic.scenes.result import solve
 from hydroelastic.scenes.sweep.axes import grid_from_texts
-from hydroelastic.scenes.sweep.families import LAST, families
+from hydroelastic.scenes.sweep.families import families, last_liquids
 from hydroelastic.scenes.sweep.journal import JOURNAL, open_journal
 from hydroelastic.scenes.sweep.result import Sweep, sweep
 
@@ -284,10 +284,10 @@ def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(
     journal = folder / JOURNAL
     # The process was killed while it wrote the last point.
     journal.write_bytes(journal.read_bytes()[:-200])
-    LAST.clear()
+    last_liquids.clear()
     solved = []
-    alone = workers.solve_points
-    monkeypatch.setattr(workers, "solve_points", lambda *given: solved.extend(given[0]) or alone(*given))
+    alone = workers.solve_point
+    monkeypatch.setattr(workers, "solve_point", lambda *given: solved.append(given[0]) or alone(*given))
     assert invoke(*arguments).exit_code == 0
     assert len(solved) == 1
     assert {name: (folder / name).read_bytes() for name in files} == whole

@@ -11,7 +11,7 @@ from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
 from hydroelastic.output.provenance import read_summary
 from hydroelastic.output.tank.quantities import DOFS, MODE_OMEGA, MODES, SIZE, TANK
 from hydroelastic.scenes.sweep.axes import grid_from_values
-from hydroelastic.scenes.sweep.families import LAST
+from hydroelastic.scenes.sweep.families import last_liquids
 from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep
 
 CLOCK = time.perf_counter
@@ -25,7 +25,7 @@ def solve(case: Case) -> Answer:
         Case(code="hydroelastic", tank="base_s0", variant="certified", tolerance=case.tolerance)
     )
     # What an earlier round left of the same liquid would be no work of this one.
-    LAST.clear()
+    last_liquids.clear()
     start = time.process_time()
     solved = solve_sweep(
         scene, grid_from_values({sweep.key: sweep.values}), options=SweepOptions(jobs=jobs, follow=False)

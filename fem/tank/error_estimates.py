@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache
 from math import ceil, log
 
 import numpy as np
@@ -90,24 +89,16 @@ def frequency_errors(
         infinite_frequency: whether the solution is that of the infinite-frequency limit.
     """
 
-    @cache
-    def at_tips() -> np.ndarray:
-        half, rings = solution.half, resolution.tip_size is not None
-        return cells_at_tips(solution.mesh, tank, half=half, infinite_frequency=infinite_frequency, rings=rings)
-
+    half, rings = solution.half, resolution.tip_size is not None
+    at_tips = cells_at_tips(solution.mesh, tank, half=half, infinite_frequency=infinite_frequency, rings=rings)
     exponents = np.full(len(owned_cells(solution.mesh.mesh)), np.inf)
     for corner, exponent in weak_corners(tank, half=solution.half).items() if tank.bed is not None else ():
         exponents[cells_at(solution.mesh.mesh, np.array([corner]))] = exponent
-    away_and_at_tips, projection = np.empty((len(modes), 2)), np.zeros(len(modes))
+    away_and_at_tips = np.empty((len(modes), 2))
     for number, part in enumerate(solution.parts):
         own = [place for place, (owner, _) in enumerate(origins) if owner == number]
-        if own and part.modes.liquid_errors is not None:
-            away_and_at_tips[own] = _finite(part.modes.liquid_errors([origins[place][1] for place in own]))
-        else:
-            potentials = [modes[place].potential for place in own]
-            away_and_at_tips[own] = _away_and_at(at_tips(), part.pencil.liquid, potentials, exponents)
-        if part.modes.projection is not None:
-            projection[own] = part.modes.projection.max(initial=0.0)
+        potentials = [modes[place].potential for place in own]
+        away_and_at_tips[own] = _away_and_at(at_tips, part.pencil.liquid, potentials, exponents)
     liquid, tips = away_and_at_tips.T
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
@@ -116,7 +107,7 @@ def frequency_errors(
     lowest = solution.modes.eigenvalues[0] if len(solution.modes.eigenvalues) else np.inf
     # An error of λ is twice that of ω.
     return FrequencyErrors(
-        liquid=0.5 * (liquid + projection) + boundary_error(solution.mesh, tank),
+        liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
         rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * np.abs(values) / lowest,

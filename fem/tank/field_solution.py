@@ -5,14 +5,13 @@ Modes of the halves are sorted into one ascending list, with the amplitudes of t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from hydroelastic.fem.dense_modes import DenseSolution
 from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.modes import HIDDEN, solve_modes
@@ -165,30 +164,23 @@ def solve_parts(
     shapes: tuple[int, ...],
     pencils: PartPencils,
     count: int,
-    known: Mapping[Parity | None, DenseSolution] | None = None,
 ) -> FieldSolution:
-    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective); of those
-    that are `known`, each for its `share_of_modes`, the modes are completed.
+    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective).
 
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if None not in pencils:
         shapes = shapes_of_twins(tank, shapes)
-    return _merged(mesh, tank, shapes, _solved_parts(pencils, count, known or {}), count)
+    return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
 
 
-def share_of_modes(parts: int, count: int) -> int:
-    """Return the number of modes that each of some parts is solved for first, if some are asked for of all."""
-    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
-    return count if parts == 1 else count // 2 + 2
-
-
-def _solved_parts(pencils: PartPencils, count: int, known: Mapping[Parity | None, DenseSolution]) -> list[Part]:
+def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
     """Solve each part for its share of the modes, and for more where the shares are not enough."""
-    shares = [share_of_modes(len(pencils), count)] * len(pencils)
+    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
+    shares = [count if len(pencils) == 1 else count // 2 + 2] * len(pencils)
     parts = [
-        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0, known=known.get(parity)))
+        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
         for (parity, pencil), share in zip(pencils.items(), shares, strict=True)
     ]
     while True:

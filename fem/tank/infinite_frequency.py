@@ -30,7 +30,7 @@ from hydroelastic.fem.tank.error_estimates import (
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, extension, solve_parts
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
-from hydroelastic.fem.tank.released_beam import ReleasedModes
+from hydroelastic.fem.tank.released_beam import ReleasedModes, released_modes
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
@@ -137,7 +137,7 @@ def infinite_frequency_limit(
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
         if user_mesh is None and not has_added_mass:
             with watch.stage(stage):
-                released = liquids.released(tank, resolution.shapes[0])
+                released = released_modes(tank, resolution.shapes[0])
                 if released is not None:
                     return _released(tank, released, resolution, tolerance)
         with watch.stage(stage):

@@ -9,7 +9,6 @@ The modes follow from
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,42 +64,24 @@ class ReleasedModes:
         )
 
 
-def released_modes(tanks: Sequence[Tank], count: int) -> list[ReleasedModes | None]:
-    """Solve the limit of tanks that share one liquid in the first dry modes of their beams.
-
-    Args:
-        tanks: dimensionless tanks, one or more, of one `liquid_key`.
-        count: number of dry modes.
-
-    Returns:
-        All modes of each; ``None`` where the liquid is not that of one uniform beam with free ends between free water,
-        or is too shallow for the expansion.
-    """
-    found: list[ReleasedModes | None] = [None] * len(tanks)
-    added_mass = _added_mass(tanks[0], count)
+def released_modes(tank: Tank, count: int) -> ReleasedModes | None:
+    """Solve the limit in a number of the first dry modes of the beam of a dimensionless tank; ``None`` where that is
+    not one uniform beam with free ends between free water, or the liquid is too shallow for the expansion."""
+    added_mass = _added_mass(tank, count)
     if added_mass is None:
-        return found
-    # Without hydrostatic restoring two motions have no stiffness, and are condensed.
-    alike: dict[bytes, list[tuple[int, Body]]] = {}
-    for place, tank in enumerate(tanks):
-        body = body_model(tank, 0).moving(count, None)
-        alike.setdefault((body.stiffness == 0.0).tobytes(), []).append((place, body))
-    for group in alike.values():
-        places, bodies = zip(*group, strict=True)
-        stiffness = np.array([body.stiffness for body in bodies])
-        inverses, amplitudes = _solved(stiffness, np.array([body.mass for body in bodies]) + added_mass)
-        energies = stiffness[:, None, :] * amplitudes**2 * inverses[:, :, None]
-        truncation = omitted(energies[:, :, elastic_places(bodies[0].dofs)])
-        for number, place in enumerate(places):
-            seen = np.count_nonzero(inverses[number] > HIDDEN * inverses[number, 0])
-            found[place] = ReleasedModes(
-                depth=tanks[place].depth,
-                bodies=(bodies[number],),
-                eigenvalues=1.0 / inverses[number, :seen],
-                elastic_amplitudes=amplitudes[number, :seen],
-                truncation=truncation[number, :seen],
-            )
-    return found
+        return None
+    body = body_model(tank, 0).moving(count, None)
+    inverses, amplitudes = _solved(body.stiffness, body.mass + added_mass)
+    energies = body.stiffness * amplitudes**2 * inverses[:, None]
+    truncation = omitted(energies[:, elastic_places(body.dofs)])
+    seen = np.count_nonzero(inverses > HIDDEN * inverses[0])
+    return ReleasedModes(
+        depth=tank.depth,
+        bodies=(body,),
+        eigenvalues=1.0 / inverses[:seen],
+        elastic_amplitudes=amplitudes[:seen],
+        truncation=truncation[:seen],
+    )
 
 
 def _added_mass(tank: Tank, count: int) -> np.ndarray | None:
@@ -118,17 +99,15 @@ def _added_mass(tank: Tank, count: int) -> np.ndarray | None:
 
 
 def _solved(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """1/λ descending, shape (beams, modes), and amplitudes, shape (beams, modes, dry modes), from the stiffness (beams,
-    dry modes) and M + M_a of beams with the same motions without stiffness."""
-    held, free = np.flatnonzero(stiffness[0]), np.flatnonzero(stiffness[0] == 0.0)
-    condensed = mass[:, held[:, None], held]
+    """1/λ descending, shape (modes,), and amplitudes, shape (modes, dry modes), from the stiffness and M + M_a."""
+    held, free = np.flatnonzero(stiffness), np.flatnonzero(stiffness == 0.0)
+    condensed = mass[np.ix_(held, held)]
     if len(free):
-        with_free = mass[:, held[:, None], free]
-        condensed = condensed - with_free @ np.linalg.solve(mass[:, free[:, None], free], with_free.swapaxes(1, 2))
-    roots = np.sqrt(stiffness[:, held])
-    inverses, vectors = np.linalg.eigh(condensed / (roots[:, :, None] * roots[:, None, :]))
-    inverses, vectors = inverses[:, ::-1], vectors[:, :, ::-1]
-    amplitudes = np.zeros((len(stiffness), len(held), stiffness.shape[1]))
-    scale = np.sqrt(np.maximum(inverses, np.finfo(float).tiny))
-    amplitudes[:, :, held] = (vectors / scale[:, None, :]).swapaxes(1, 2) / roots[:, None, :]
+        with_free = mass[np.ix_(held, free)]
+        condensed = condensed - with_free @ np.linalg.solve(mass[np.ix_(free, free)], with_free.T)
+    roots = np.sqrt(stiffness[held])
+    inverses, vectors = np.linalg.eigh(condensed / np.outer(roots, roots))
+    inverses, vectors = inverses[::-1], vectors[:, ::-1]
+    amplitudes = np.zeros((len(held), len(stiffness)))
+    amplitudes[:, held] = (vectors / np.sqrt(np.maximum(inverses, np.finfo(float).tiny))).T / roots
     return inverses, amplitudes

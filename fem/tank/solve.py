@@ -39,10 +39,10 @@ from hydroelastic.fem.tank.resolution import (
     sharpest_exponent,
     workable_tolerance,
 )
-from hydroelastic.fem.tank.together import attempt_together
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.physics.rigid_motions import mode_count
+from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 
 _MOST_ATTEMPTS = 5
@@ -138,16 +138,13 @@ def solve_tank(
         MeshError: if the mesh does not fit the scene.
         EigenSolverError: if the eigen-solver fails.
     """
-    known = liquids.known(physical, tolerance, modes)
-    if isinstance(known, TankSolution):
-        return known
     comm = comm or MPI.COMM_WORLD
     watch = Stopwatch()
     given = comm.bcast(mesh is not None, root=0)
     with watch.stage("plan"):
-        begun = liquids.first_attempt(physical, tolerance, modes, halves=halves and not given)
-        tank, first = begun.tank, begun.resolution
-    watch.seconds |= begun.seconds
+        tank = physical.scaled()
+        first = liquids.first(tank, tolerance, modes)
+        half = halves and not given and is_mirror_image(tank)
     user_mesh: TankMesh | None = None
     if given:
         with watch.stage("mesh"):
@@ -155,7 +152,6 @@ def solve_tank(
                 comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None
             )
         first = replace(first, tip_size=None)
-    half = begun.half
     workable = workable_tolerance(tolerance, tank.depth)
     attempts = count(1)
 
@@ -169,16 +165,12 @@ def solve_tank(
     def solve(resolution: Resolution) -> TankSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
-        field, counted = (begun.field, begun.counted) if attempt == 1 else (None, None)
-        if field is None:
-            with watch.stage("mesh"):
-                mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
+        with watch.stage("mesh"):
+            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
         beside = limit()
-        if field is None:
-            field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
-        if counted is None:
-            with watch.stage("count"):
-                counted = count_is_confirmed(field)
+        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
+        with watch.stage("count"):
+            counted = count_is_confirmed(field)
         return _judged(physical, tank, (tolerance, modes), resolution, field, counted, beside, watch, attempt)
 
     found = adaptive_solve(
@@ -335,14 +327,7 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
     limits = [ANEW.first_of_limit(tank, workable_tolerance(tolerance, tank.depth)) for tank in scaled]
     fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]
     liquids = SharedLiquids(of_field=finest(fields), of_limit=finest(limits))
-    attempt_together(liquids, tanks, tolerance=tolerance, modes=modes)
     # What is refined for one of them is refined for all.
     solved = [solve_tank(tank, tolerance=tolerance, modes=modes, liquids=liquids) for tank in tanks]
     liquids.of_field = finest([one.resolution for one in solved])
-    liquids.growing = False
-    liquids.solved = {
-        (one.physical, tolerance, modes): one
-        for one in solved
-        if one.resolution == liquids.first(one.tank, tolerance, modes)
-    }
     return liquids

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from hashlib import sha256
 from math import ceil
 from pathlib import Path
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 _FEWEST = 4
 # One more scene of the sample for so many points: of few points further directions cost less than further solutions.
 _FOR_EACH = 32
-# Points that are solved together. Measured: with half as many, or twice, a sweep takes as long; more take more memory.
-_TOGETHER = 64
 
 
 def identity(scene: Scene) -> str:
@@ -56,35 +54,27 @@ def _paths(value: Any) -> Iterator[Path]:
 
 @dataclass(frozen=True, kw_only=True)
 class Family:
-    """Closed tanks that differ only in what does not touch the liquid, and some of them that are solved together.
+    """Closed tanks that differ only in what does not touch the liquid.
 
     Attributes:
         name: a hash of all of them, which also tells families of different sweeps apart.
         sample: some scenes of the grid, with the first and the last one: all take a resolution that suffices for them,
-            and the directions of their motions, so that the result of a point does not depend on which points were
-            solved before.
-        batch: number of those that are solved together.
-        together: their scenes, without those of the sample; none for a point beside the grid.
+            so that the result of a point does not depend on which points were solved before.
     """
 
     name: str
     sample: tuple[TankScene, ...]
-    batch: int = -1
-    together: tuple[TankScene, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Families:
-    """The families of a sweep, by what their liquid depends on, and by the scenes of the grid."""
+    """The families of a sweep, by what their liquid depends on."""
 
     known: dict[object, Family]
-    of_scenes: dict[TankScene, Family]
 
     def of(self, scene: Scene | SceneError) -> Family | None:
         """Return the family of a scene; ``None`` without one."""
-        if not isinstance(scene, TankScene) or not self.known:
-            return None
-        return self.of_scenes.get(scene) or self.known.get(_liquid_of(scene))
+        return self.known.get(_liquid_of(scene)) if isinstance(scene, TankScene) and self.known else None
 
 
 def families(scenes: Sequence[Scene | SceneError]) -> Families:
@@ -95,20 +85,12 @@ def families(scenes: Sequence[Scene | SceneError]) -> Families:
             members.setdefault(_liquid_of(scene), []).append(scene)
     members.pop(None, None)
     known: dict[object, Family] = {}
-    of_scenes: dict[TankScene, Family] = {}
     for liquid, own in members.items():
         if len(own) < _FEWEST:
             continue
-        places = _places_of_sample(len(own))
-        sample = tuple(own[place] for place in places)
-        family = Family(name=_hash(repr(liquid), *map(identity, sample)), sample=sample)
-        known[liquid] = family
-        for batch, first in enumerate(range(0, len(own), _TOGETHER)):
-            batched = range(first, min(first + _TOGETHER, len(own)))
-            others = tuple(own[place] for place in batched if place not in places)
-            one = replace(family, batch=batch, together=others)
-            of_scenes |= {own[place]: one for place in batched}
-    return Families(known=known, of_scenes=of_scenes)
+        sample = tuple(own[place] for place in _places_of_sample(len(own)))
+        known[liquid] = Family(name=_hash(repr(liquid), *map(identity, sample)), sample=sample)
+    return Families(known=known)
 
 
 def _places_of_sample(scenes: int) -> list[int]:
@@ -131,33 +113,16 @@ def _hash(*texts: str) -> str:
     return sha256("\n".join(texts).encode()).hexdigest()
 
 
-@dataclass
-class _Shared:
-    """The liquids of a family, and the batch whose first attempts are made."""
-
-    liquids: SharedLiquids
-    batch: int = -1
-
-
-LAST: dict[str, _Shared] = {}
-"""Those of the last family, by its name."""
+last_liquids: dict[str, SharedLiquids] = {}
 
 
 def liquids_of(family: Family) -> SharedLiquids:
-    """Return the liquids of a family, made when it is first asked for, with the first attempts at the tanks of its
-    batch; those of the last family and batch only are kept."""
+    """Return the liquids of a family, made when it is first asked for; those of the last family only are kept."""
     from hydroelastic.fem.tank.solve import shared_liquids
-    from hydroelastic.fem.tank.together import attempt_together
     from hydroelastic.scenes.models.physical import physical_tank
 
-    asked = family.sample[0].accuracy
-    if family.name not in LAST:
-        LAST.clear()
-        tanks = [physical_tank(scene) for scene in family.sample]
-        LAST[family.name] = _Shared(shared_liquids(tanks, tolerance=asked.tolerance, modes=asked.modes))
-    shared = LAST[family.name]
-    if family.batch not in (-1, shared.batch):
-        shared.batch, tanks = family.batch, [physical_tank(scene) for scene in family.together]
-        if tanks:
-            attempt_together(shared.liquids, tanks, tolerance=asked.tolerance, modes=asked.modes)
-    return shared.liquids
+    if family.name not in last_liquids:
+        asked, tanks = family.sample[0].accuracy, [physical_tank(scene) for scene in family.sample]
+        last_liquids.clear()
+        last_liquids[family.name] = shared_liquids(tanks, tolerance=asked.tolerance, modes=asked.modes)
+    return last_liquids[family.name]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
@@ -103,23 +103,10 @@ def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str
     return sha256(f"{identity(scene)}{json.dumps(content, sort_keys=True)}".encode()).hexdigest()
 
 
-def solve_points(tasks: Sequence[Task], options: PointOptions) -> list[SolvedPoint]:
-    """Solve points (collective); what goes wrong with one is kept as its reason.
-
-    All are solved before the first is summarized, so that code stays in the caches of a processor: a sweep of a hundred
-    small tanks takes 3 % less time.
-    """
-    solutions = [_tried(partial(_solution, task, options)) for task in tasks]
-    return [
-        found if isinstance(found, SolvedPoint) else _tried(partial(_solved, task, found, options))
-        for task, found in zip(tasks, solutions, strict=True)
-    ]
-
-
-def _tried(work: Callable[[], Any]) -> Any:
-    """The result of some work, or the point that an error prevented."""
+def solve_point(task: Task, options: PointOptions) -> SolvedPoint:
+    """Solve a point (collective); what goes wrong with it is kept as its reason."""
     try:
-        return work()
+        return _solved(task, _solution(task, options), options)
     except Exception as error:
         return failed(error)
 

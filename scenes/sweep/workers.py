@@ -13,11 +13,10 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from itertools import groupby
 from multiprocessing import get_context, parent_process
 
 from hydroelastic.scenes.errors import Problem, SceneError
-from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, solve_points
+from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, solve_point
 
 # Points that share one liquid: of fewer, a second process saves less than its start, 0.6 s, and a liquid of its own
 # take. Measured on a beam in a tank: at 2.4 ms a point this is even at 1000.
@@ -25,7 +24,7 @@ _FEWEST_OF_FAMILY = 1000
 
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
-    """Solve tasks, and yield each as soon as it, with those that are solved together with it, is solved.
+    """Solve tasks, and yield each as soon as it is solved.
 
     Args:
         tasks: in the order in which they are begun.
@@ -36,33 +35,29 @@ def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Ite
     Raises:
         SceneError: if the processes cannot be started.
     """
-    # Tasks that are solved together are one piece of work.
-    works = [list(own) for _, own in groupby(tasks, key=_work_of)]
     families = {task.family and task.family.name for task in tasks}
     if jobs == 1 or len(tasks) < (_FEWEST_OF_FAMILY if len(families) == 1 and None not in families else 2):
-        for work in works:
-            yield from zip(work, solve_points(work, options), strict=True)
+        for task in tasks:
+            yield task, solve_point(task, options)
         return
     if parent_process() is not None:
         raise SceneError(Problem(key="jobs", wrong="a process of a sweep cannot start another sweep with more"))
-    left = works
+    left = list(tasks)
     while left:
-        survived, suspects = True, []
-        for work, points in _pooled(tuple(left), options, min(jobs, len(left))):
-            if points is None:
-                survived = False
-                suspects.append(work)
+        suspects = []
+        for task, point in _pooled(tuple(left), options, min(jobs, len(left))):
+            if point is None:
+                suspects.append(task)
             else:
-                left.remove(work)
-                yield from zip(work, points, strict=True)
-        if survived:
+                left.remove(task)
+                yield task, point
+        if not suspects:
             return
         # A process died, and took the others of its pool with it: what they were solving is solved one at a time.
-        for work in suspects[: jobs + 1]:
-            left.remove(work)
-            for task in work:
-                ((_, points),) = _pooled([[task]], options, 1)
-                yield task, points[0] if points else _died()
+        for task in suspects[: jobs + 1]:
+            left.remove(task)
+            ((_, point),) = _pooled([task], options, 1)
+            yield task, point or _died()
 
 
 def _died() -> SolvedPoint:
@@ -70,15 +65,8 @@ def _died() -> SolvedPoint:
     return SolvedPoint(status="failed", reasons=(reason,))
 
 
-def _work_of(task: Task) -> object:
-    """What tasks that are solved together have in common."""
-    return task.key if task.family is None or task.family.batch < 0 else (task.family.name, task.family.batch)
-
-
-def _pooled(
-    works: Sequence[list[Task]], options: PointOptions, jobs: int
-) -> Iterator[tuple[list[Task], list[SolvedPoint] | None]]:
-    """Yield each piece of work with its points, or with ``None`` where a process died."""
+def _pooled(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint | None]]:
+    """Yield each task with its point, or with ``None`` where a process died."""
     pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)
     try:
         try:
@@ -91,12 +79,12 @@ def _pooled(
                     remedy='In a script, call the sweep below `if __name__ == "__main__":`',
                 )
             ) from error
-        running: dict[Future[list[SolvedPoint]], list[Task]] = {}
-        for work in works:
+        running: dict[Future[SolvedPoint], Task] = {}
+        for task in tasks:
             try:
-                running[pool.submit(solve_points, work, options)] = work
+                running[pool.submit(solve_point, task, options)] = task
             except BrokenProcessPool:
-                yield work, None
+                yield task, None
             if len(running) > jobs:
                 yield from _finished(running)
         while running:
@@ -109,12 +97,12 @@ def _pooled(
 
 
 def _finished(
-    running: dict[Future[list[SolvedPoint]], list[Task]],
-) -> Iterator[tuple[list[Task], list[SolvedPoint] | None]]:
-    """Wait for some of the running pieces of work, and yield and remove them."""
+    running: dict[Future[SolvedPoint], Task],
+) -> Iterator[tuple[Task, SolvedPoint | None]]:
+    """Wait for some of the running tasks, and yield and remove them."""
     for future in wait(running, return_when=FIRST_COMPLETED).done:
-        work = running.pop(future)
-        yield work, None if isinstance(future.exception(), BrokenProcessPool) else future.result()
+        task = running.pop(future)
+        yield task, None if isinstance(future.exception(), BrokenProcessPool) else future.result()
 
 
 def _end_with_parent() -> None:

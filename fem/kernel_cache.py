@@ -11,12 +11,10 @@ from __future__ import annotations
 import fcntl
 import logging
 import os
-import sys
 import time
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from functools import cache
 from pathlib import Path
 
 from dolfinx.jit import get_options
@@ -24,7 +22,6 @@ from mpi4py import MPI
 
 _LOG = logging.getLogger(__name__)
 _LOCK = "hydroelastic.lock"
-_ELF_HEADER = 64
 _COMPILING = "compiling"
 # Age, s, after which unfinished files of programs that do not use the lock count as abandoned.
 _GIVEN_UP = 60.0
@@ -97,13 +94,12 @@ def _remove_damaged(folder: Path, *, killed: bool) -> None:
     unfinished = {name for name, endings in kernels.items() if ".c" in endings and ".c.cached" not in endings}
     waited_for = set() if killed else {name for name in unfinished if _age(folder / f"{name}.c") < _GIVEN_UP}
     finished = kernels.keys() - unfinished
-    broken = {name for name in finished if not _is_whole(folder / name, kernels[name])}
+    broken = {name for name in finished if not _is_whole(kernels[name])}
     damaged = (unfinished - waited_for) | broken
     for name in damaged:
         for ending in kernels[name]:
             (folder / f"{name}{ending}").unlink()
     if damaged:
-        _is_whole_library.cache_clear()
         _LOG.warning("hydroelastic: %d unfinished or damaged kernels in %s are compiled anew", len(damaged), folder)
     if not waited_for:
         _looked_at[folder] = folder.stat().st_mtime_ns
@@ -113,25 +109,9 @@ def _age(file: Path) -> float:
     return time.time() - file.stat().st_mtime
 
 
-def _is_whole(kernel: Path, endings: set[str]) -> bool:
+def _is_whole(endings: set[str]) -> bool:
     """Whether a finished kernel can be loaded, or no file prevents its compilation."""
     libraries = [ending for ending in endings if ending.endswith(".so")]
     if not libraries and ".c.cached" not in endings:
         return True
-    whole = all(_is_whole_library(kernel.with_name(f"{kernel.name}{ending}")) for ending in libraries)
-    return bool(libraries) and {".c", ".c.cached"} <= endings and whole
-
-
-@cache
-def _is_whole_library(file: Path) -> bool:
-    """Whether a shared library has the length stated in its header; loading a truncated one could end the process.
-
-    The table of sections is the last part of an ELF file: its place is at byte 40 of the header, the length and the
-    number of its entries at 58 and 60 (System V ABI, chapter 4).
-    """
-    with file.open("rb") as content:
-        header = content.read(_ELF_HEADER)
-    if header[:4] != b"\x7fELF":
-        return False
-    table, length, number = (int.from_bytes(header[at:to], sys.byteorder) for at, to in ((40, 48), (58, 60), (60, 62)))
-    return file.stat().st_size >= table + length * number
+    return bool(libraries) and {".c", ".c.cached"} <= endings

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.meshes.interrupts import unfinished
-from hydroelastic.output.exchange import exchange
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.manifest import MANIFEST, Manifest, file_names, read_manifest, write_manifest
 
@@ -179,9 +178,17 @@ def _move_in(aside: Path, target: Path) -> None:
     earlier = read_manifest(target) or Manifest(scene="", files={})
     found = file_names(target)
     _keep([name for name in found if not earlier.is_own(target, name)], target, aside)
-    exchange(aside, target)
-    # Files created since the listing are in the folder that has been exchanged.
-    _keep(sorted(set(file_names(aside)) - set(found)), aside, target)
+    # Between both moves a killed process leaves the old folder under this name, and the next run takes it back.
+    previous = aside.with_suffix(".previous")
+    os.replace(target, previous)
+    try:
+        os.replace(aside, target)
+    except BaseException:
+        os.replace(previous, target)
+        raise
+    # Files created since the listing are in the old folder.
+    _keep(sorted(set(file_names(previous)) - set(found)), previous, target)
+    shutil.rmtree(previous, ignore_errors=True)
 
 
 def _keep(names: list[str], source: Path, target: Path) -> None:

@@ -53,6 +53,7 @@ NESTED = {
 }
 
 
+@pytest.mark.slow_but("a key of 30,000 names", "tables in tables")
 @pytest.mark.parametrize("text", NESTED.values(), ids=list(NESTED))
 def test_deep_nesting_is_refused_before_it_takes_memory(text: str, tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(f'kind = "tank"\n{text}\n', encoding="utf-8")
@@ -87,6 +88,7 @@ def test_kinds_of_scenes_are_not_varied(tmp_path: Path) -> None:
     assert not (tmp_path / "results").exists()
 
 
+@pytest.mark.slow_but("file-command1", "missing-command2")
 @pytest.mark.parametrize("command", [("run", "swell"), ("run", "aquarium"), ("check", "scow_in_a_basin")])
 @pytest.mark.parametrize("folder", ["missing", "file"])
 def test_a_temporary_folder_that_cannot_be_used_is_named(command: tuple[str, ...], folder: str, tmp_path: Path) -> None:
@@ -169,6 +171,7 @@ TRACES = {
 }
 
 
+@pytest.mark.slow_but("solved")
 @pytest.mark.parametrize("arguments", TRACES.values(), ids=list(TRACES))
 def test_nothing_is_left_in_the_temporary_folder_or_the_home(arguments: tuple[str, ...], tmp_path: Path) -> None:
     folders = {name: tmp_path / name for name in ("TMPDIR", "HOME", "here")}

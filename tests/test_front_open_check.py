@@ -116,9 +116,9 @@ def test_waves_that_scatter_in_too_many_orders_are_refused(
     options = ("--no-images", "--out", str(tmp_path / "out")) if command == "run" else ()
     result = invoke(tmp_path, command, SPHERE.format(analysis=analysis), *options)
     assert result.exit_code == 2
-    # ω = √(100 g/R).
+    # ω = √(75 g/R).
     assert f'number 1, key "{key}" = 6' in said(result)
-    assert "Allowed: at most 4.474 rad/s, where k R = 100" in said(result)
+    assert "Allowed: at most 3.875 rad/s, where k R = 75" in said(result)
     assert not (tmp_path / "out").exists()
 
 

@@ -20,9 +20,9 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
-MOST_WAVES_AROUND = 100.0
+MOST_WAVES_AROUND = 75.0
 """Largest k R of the waves that solids of revolution scatter, with the R of their largest waterplane: about as many
-azimuthal orders are solved, each with matrices of its own."""
+azimuthal orders are solved, each with matrices of its own: 50 take minutes and gigabytes."""
 
 _DEEPEST = 1e8  # over the extent of bodies
 

@@ -46,6 +46,7 @@ NOT_RUN = {
     "./hydro test --junitxml=report.xml": ALL_TESTS,
     "./hydro test --all --junitxml=report_of_all.xml": ALL_TESTS,
     "./hydro python tests/support/slowest.py report.xml report_of_all.xml": "needs the reports of all tests",
+    "./hydro python tests/support/mutated_scenes.py 3000 --seed 1": MINUTES,
     "HYDROELASTIC_SUITE=sid ./hydro test": "the second lane: another Debian, from the network",
     "./hydro env": "a command of the launcher, tests/test_launcher.py",
     "./hydro mpirun -n 2 python -m hydroelastic.scenes run aquarium": (

@@ -60,10 +60,10 @@ def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> Non
     solution = solved(depth)
     table = solution.impulse_response[0]
     assert not solution.reasons
-    # Measured: 2e-4 in the longest waves; the discretization error is larger.
-    assert table.causality_error.max() < 5e-4
-    assert np.median(table.causality_error) < 5e-5
-    assert table.ogilvie_error.max() < 5e-4
+    # Measured: 2e-5 in deep water, 1e-5 over a bed, both in the longest waves; the discretization error is larger.
+    assert table.causality_error.max() < 2e-4
+    assert np.median(table.causality_error) < 1e-5
+    assert table.ogilvie_error.max() < 2e-4
     # Another mesh, another basis.
     places = slice(2, -3, 4)
     other = solve_radiation(problem(depth), RadiationRequest(omega=tuple(table.omega[places].tolist()))).table
@@ -124,7 +124,7 @@ def test_regular_waves_end_in_the_response_of_the_frequency_domain(depth: float)
     np.testing.assert_allclose(table.elevation[grown], wave.real[grown], rtol=0.0, atol=1e-12)
     expected = (amplitude * wave).real
     # Both keep the tolerance; after the transient an algebraic tail of 1e-4 of the amplitude is left.
-    np.testing.assert_allclose(table.displacement[late, 0], expected[late], rtol=0.0, atol=4e-3 * abs(amplitude * 0.05))
+    np.testing.assert_allclose(table.displacement[late, 0], expected[late], rtol=0.0, atol=2e-3 * abs(amplitude * 0.05))
     np.testing.assert_allclose(table.steady[:, 0], expected, rtol=0.0, atol=1e-3 * abs(amplitude * 0.05))
 
 

@@ -27,6 +27,7 @@ def swing_in_liquid(step: float, elements: int = 10, degree: int = 3) -> ThreadM
     return follow(chain(**liquid()), elements, swing(), times, step, degree=degree)
 
 
+@pytest.mark.slow
 def test_pendulum_limit() -> None:
     """The period of a thread of little mass with a body is that of a pendulum."""
     period, angle = results("D01")["period"], np.deg2rad(60.0)

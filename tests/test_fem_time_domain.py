@@ -125,8 +125,8 @@ def test_regular_waves_end_in_the_motion_of_the_frequency_domain(memory: Radiati
     )
     late = times > 360.0
     # The transient has decayed to less than 1e-7; the exponentials without states are left out to (1/30)³ of the last
-    # part of K̂.
-    np.testing.assert_allclose(displacement[late], (turning @ amplitudes).real[late], rtol=0.0, atol=2e-6)
+    # part of K̂, 10 %.
+    np.testing.assert_allclose(displacement[late], (turning @ amplitudes).real[late], rtol=0.0, atol=4e-6)
     np.testing.assert_allclose(
         velocity[late], (turning @ (-1j * waves.omega[:, None] * amplitudes)).real[late], rtol=0.0, atol=4e-6
     )

@@ -51,7 +51,8 @@ def response(scene: dict[str, Any], omega: Any) -> dict[str, Any]:
 
 
 def test_the_largest_motion_is_that_of_the_curve_and_not_of_its_samples() -> None:
-    scene = CYLINDER | {"accuracy": {"tolerance": 1e-3}}
+    heaving = CYLINDER["body"][0] | {"motions": ["heave"]}
+    scene = CYLINDER | {"body": [heaving], "accuracy": {"tolerance": 1e-3}}
     found = response(scene, {"start": 1.5, "stop": 3.5, "number": 7})
     (value, *_), (omega, *_), (error, *_) = (found["largest"][key][0] for key in ("value", "omega", "error"))
     samples = np.hypot(*np.moveaxis(np.array(found["amplitudes"])[:, 0, 0], -1, 0))

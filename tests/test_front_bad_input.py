@@ -53,17 +53,28 @@ NESTED = {
 }
 
 
+@pytest.mark.slow_but("a key of 30,000 names", "tables in tables")
 @pytest.mark.parametrize("text", NESTED.values(), ids=list(NESTED))
 def test_deep_nesting_is_refused_before_it_takes_memory(text: str, tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(f'kind = "tank"\n{text}\n', encoding="utf-8")
     refused(run("check", "scene.toml", folder=tmp_path, limit=little_memory), "scene.toml", "nested too deeply")
 
 
-def test_deep_nesting_of_options_and_dictionaries_is_refused(tmp_path: Path) -> None:
-    refused(run("check", "aquarium", "--set", f"{DOTS}b=1", folder=tmp_path, limit=little_memory), "too many names")
-    value = f"x={{{DOTS}b=1}}"
-    refused(run("check", "aquarium", "--set", value, folder=tmp_path, limit=little_memory), "not TOML")
-    refused(run("sweep", "aquarium", "--vary", value, folder=tmp_path, limit=little_memory), "x")
+@pytest.mark.slow_but("names")
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("check", "aquarium", "--set", f"{DOTS}b=1"), "too many names"),
+        (("check", "aquarium", "--set", f"x={{{DOTS}b=1}}"), "not TOML"),
+        (("sweep", "aquarium", "--vary", f"x={{{DOTS}b=1}}"), "x"),
+    ],
+    ids=["names", "value", "values"],
+)
+def test_deep_nesting_of_options_is_refused(words: tuple[str, ...], said: str, tmp_path: Path) -> None:
+    refused(run(*words, folder=tmp_path, limit=little_memory), said)
+
+
+def test_deep_nesting_of_dictionaries_is_refused() -> None:
     deep: dict[str, Any] = {}
     for _ in range(5000):
         deep = {"a": deep}
@@ -87,6 +98,7 @@ def test_kinds_of_scenes_are_not_varied(tmp_path: Path) -> None:
     assert not (tmp_path / "results").exists()
 
 
+@pytest.mark.slow_but("file-command1", "missing-command2")
 @pytest.mark.parametrize("command", [("run", "swell"), ("run", "aquarium"), ("check", "scow_in_a_basin")])
 @pytest.mark.parametrize("folder", ["missing", "file"])
 def test_a_temporary_folder_that_cannot_be_used_is_named(command: tuple[str, ...], folder: str, tmp_path: Path) -> None:
@@ -97,13 +109,13 @@ def test_a_temporary_folder_that_cannot_be_used_is_named(command: tuple[str, ...
 
 
 def test_a_journal_that_ends_within_a_character_is_gone_on_with(tmp_path: Path) -> None:
-    arguments = ("sweep", "string_ramp", "--vary", "string.resistance=0.1,0.2", "--no-images", "--out", "sweep")
-    assert run(*arguments, folder=tmp_path).returncode == 0
-    table, journal = tmp_path / "sweep" / "sweep.csv", tmp_path / "sweep" / "sweep.journal"
-    before = table.read_bytes()
+    def table() -> Any:
+        found = he.sweep(he.read("string_ramp"), {"string.resistance": [0.1, 0.2]}, out=tmp_path).table
+        return found[[name for name in found if "memory" not in name]]
+
+    before, journal = table(), tmp_path / "sweep.journal"
     journal.write_bytes(journal.read_bytes()[:-300] + "ω".encode()[:1])
-    assert run(*arguments, folder=tmp_path).returncode == 0
-    assert table.read_bytes() == before
+    assert table().equals(before)
 
 
 # Memory that processes share is a file too.
@@ -116,19 +128,20 @@ def small_files() -> None:
 
 
 def test_a_full_disk_names_the_journal(tmp_path: Path) -> None:
-    vary = ("--vary", "string.resistance=0.1:0.3:20", "--no-images", "--out", "sweep")
+    vary = ("--vary", "string.resistance=0.1:0.3:5", "--no-images", "--out", "sweep")
     found = run("sweep", "string_ramp", *vary, folder=tmp_path, limit=small_files, env=os.environ | ALONE)
     refused(found, "sweep.journal", "File too large", "Make room")
 
 
-def test_a_full_disk_names_the_cache(tmp_path: Path) -> None:
-    hull = ("run", "scow_in_a_basin", *COARSE)
-    environment = os.environ | ALONE | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
-    found = run(*hull, folder=tmp_path, limit=small_files, env=environment)
-    refused(found, str(tmp_path / "cache"), "cache of compiled kernels", "XDG_CACHE_HOME")
-    (tmp_path / "file").touch()
-    environment["XDG_CACHE_HOME"] = str(tmp_path / "file")
-    refused(run(*hull, folder=tmp_path, env=environment), str(tmp_path / "file"), "cache of compiled kernels")
+@pytest.mark.slow_but("a file")
+@pytest.mark.parametrize("limit", [small_files, None], ids=["full", "a file"])
+def test_a_cache_that_cannot_be_written_is_named(limit: Callable[[], None] | None, tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    if limit is None:
+        cache.touch()
+    environment = os.environ | ALONE | {"XDG_CACHE_HOME": str(cache)}
+    found = run("run", "scow_in_a_basin", *COARSE, folder=tmp_path, limit=limit, env=environment)
+    refused(found, str(cache), "cache of compiled kernels", "XDG_CACHE_HOME")
 
 
 def test_a_full_output_is_still_told(tmp_path: Path) -> None:
@@ -169,6 +182,7 @@ TRACES = {
 }
 
 
+@pytest.mark.slow_but("solved")
 @pytest.mark.parametrize("arguments", TRACES.values(), ids=list(TRACES))
 def test_nothing_is_left_in_the_temporary_folder_or_the_home(arguments: tuple[str, ...], tmp_path: Path) -> None:
     folders = {name: tmp_path / name for name in ("TMPDIR", "HOME", "here")}

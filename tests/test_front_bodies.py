@@ -93,6 +93,7 @@ def test_a_heave_plate_may_reach_below_a_section() -> None:
     assert below[0] > 1.02 * nearer[0]
 
 
+@pytest.mark.slow
 def test_a_heave_plate_under_a_ring_is_that_of_the_volume() -> None:
     """Two models of one tank; each mode within both stated errors."""
     bodies = RING | {"motions": ["heave"]}, spar(2.6) | {"motions": ["heave"]}
@@ -145,6 +146,7 @@ def test_a_column_may_stand_in_the_hole_of_a_float_and_beside_another_one_at_an_
         he.read(box(column=[columns[0], {"position": [4.6, 4.6], "radius": 0.4}]))
 
 
+@pytest.mark.slow_but("ring")
 @pytest.mark.parametrize(
     "outline",
     [
@@ -165,6 +167,7 @@ def test_revolved_floats_in_the_middle_of_a_box_are_those_beside_it(outline: lis
         assert difference < one["relative_error"] + other["relative_error"]
 
 
+@pytest.mark.slow_but("narrow hole")
 @pytest.mark.parametrize(
     "outline",
     [
@@ -192,8 +195,9 @@ SHAPES: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.slow_but("0.1-cone")
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("tolerance", [1e-1, pytest.param(1e-2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2])
 def test_the_stated_error_of_a_volume_covers_its_difference_from_the_solid_of_revolution(
     shape: str, tolerance: float
 ) -> None:
@@ -252,6 +256,7 @@ def square_ring(folder: Path) -> Path:
 SPHERE = {"shape": "sphere", "radius": 0.4}
 
 
+@pytest.mark.slow_but("empty")
 @pytest.mark.parametrize("inside", [(), (SPHERE,)], ids=["empty", "with a sphere"])
 def test_a_moonpool_of_triangles_is_that_of_the_solid(inside: tuple[dict[str, Any], ...], tmp_path: Path) -> None:
     """Two meshes of one tank: of triangles, and of a solid of CAD. The sixth mode is the water of the moonpool's."""

@@ -16,7 +16,7 @@ import hydroelastic as he
 
 SHIPPED = he.shipped_scenes()[0].path.parent
 COARSE = {"accuracy.tolerance": 1e-2}
-TWO_MODES = COARSE | {"accuracy.modes": 2}
+ONE_MODE = {"accuracy.tolerance": 1e-1, "accuracy.modes": 1}
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ depth = 1.0
 file = "liquid.msh"
 """
 BED = "".join(f"{x},{y},{-1.0 + 0.1 * x}\n" for x in (-2.0, 2.0) for y in (-1.0, 1.0))
-DAMPING = {"roll.damping_ratio": [0.03, 0.05]}
+DAMPING = {"roll.damping_ratio": [0.03]}
 
 CASES = {
     "outline": Case(
@@ -130,8 +130,8 @@ CASES = {
         SECTION,
         "ship_section.csv",
         scaled_column(0, 1.1),
-        {"tank.length": [60.0, 70.0]},
-        TWO_MODES,
+        {"tank.length": [60.0]},
+        ONE_MODE,
     ),
     "record of waves": Case(
         "swell_record.toml",
@@ -157,7 +157,7 @@ CASES = {
         {"string_table.toml": None, "crane_record.csv": None},
         "crane_record.csv",
         scaled_column(1, 2.0),
-        {"string.resistance": [0.12, 0.2]},
+        {"string.resistance": [0.12]},
         COARSE,
     ),
     "stream": Case(
@@ -165,7 +165,7 @@ CASES = {
         {"thread.toml": THREAD, "stream.csv": "-600,1,0\n0,2,0\n"},
         "stream.csv",
         scaled_column(1, 1.5),
-        {"thread.length": [500.0, 400.0]},
+        {"thread.length": [500.0]},
         {},
     ),
     "mesh": Case(
@@ -173,24 +173,24 @@ CASES = {
         {"tank.toml": MESHED, "liquid.msh": square_of_triangles()},
         "liquid.msh",
         replaced("5 1.0 -0.5 0", "5 1.3 -0.5 0"),
-        {"tank.gravity": [9.81, 9.8]},
-        {"accuracy.modes": 1, "accuracy.tolerance": 1e-1},
+        {"tank.gravity": [9.81]},
+        ONE_MODE,
     ),
     "bed": Case(
         "basin.toml",
         {"basin.toml": BASIN, "bed.csv": BED},
         "bed.csv",
         scaled_column(2, 0.8),
-        {"tank.gravity": [9.81, 9.8]},
-        {"accuracy.modes": 1, "accuracy.tolerance": 1e-1},
+        {"tank.gravity": [9.81]},
+        ONE_MODE,
     ),
     "hull": Case(
         "scow_in_a_basin.toml",
         {"scow_in_a_basin.toml": None, "scow.stl": None},
         "scow.stl",
         longer_hull,
-        {"tank.gravity": [9.81, 9.8]},
-        {"accuracy.modes": 1, "accuracy.tolerance": 1e-1},
+        {"tank.gravity": [9.81]},
+        ONE_MODE,
     ),
 }
 
@@ -222,7 +222,7 @@ def table(case: Case, folder: Path, out: str) -> Any:
     return found[[name for name in found if "memory" not in name]]
 
 
-@pytest.mark.slow_but("outline", "section*", "motion*", "stream", "mesh", "bed")
+@pytest.mark.slow_but("outline", "section*", "motion*", "mesh")
 def test_a_sweep_takes_no_point_that_was_solved_with_other_files(case: Case, tmp_path: Path) -> None:
     first = table(case, tmp_path, "sweep")
     assert "failed" not in list(first.status), list(first.reason)
@@ -240,7 +240,7 @@ def test_a_scene_that_is_solved_again_takes_its_files_as_they_are_now(case: Case
 
     first = frequencies()
     change(case, tmp_path)
-    # A hull that is a tenth wider; both are solved to 1e-2.
+    # A hull that is a tenth wider; both are solved to 1e-1, and at this size to 1e-4.
     assert abs(frequencies() / first - 1.0).max() > 0.02
 
 
@@ -257,7 +257,7 @@ def test_names_beside_a_mesh_belong_to_it(tmp_path: Path) -> None:
     beside = tmp_path / "liquid.msh.names.json"
 
     def statuses() -> list[str]:
-        scene = he.read(tmp_path / "tank.toml", {"accuracy.modes": 1, "accuracy.tolerance": 1e-1})
+        scene = he.read(tmp_path / "tank.toml", ONE_MODE)
         return list(he.sweep(scene, {"tank.gravity": [9.81]}, out=tmp_path / "sweep").table.status)
 
     beside.write_text('{"cells": {"liquid": 1}, "facets": {"walls": 2, "free_surface": 3}}', encoding="utf-8")
@@ -267,10 +267,10 @@ def test_names_beside_a_mesh_belong_to_it(tmp_path: Path) -> None:
 
 
 def test_a_file_that_changes_during_a_sweep_ends_it(tmp_path: Path) -> None:
-    case = CASES["outline"]
+    case = CASES["motion of a string"]
     write_files(case, tmp_path)
-    command = [sys.executable, "-m", "hydroelastic.scenes", "sweep", case.scene, "--vary", "tank.length=60:90:40"]
-    command += ["--set", "accuracy.modes=1", "--set", "accuracy.tolerance=1e-2", "--out", "sweep", "--no-images"]
+    command = [sys.executable, "-m", "hydroelastic.scenes", "sweep", case.scene]
+    command += ["--vary", "string.resistance=0.1:0.3:100", "--out", "sweep", "--no-images"]
     with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as sweep:
         journal, end = tmp_path / "sweep" / "sweep.journal", time.monotonic() + 60.0
         while not (journal.exists() and journal.stat().st_size) and time.monotonic() < end:

@@ -81,3 +81,47 @@ def test_check_tells_what_elastic_tones_among_short_waves_take(tmp_path: Path) -
     unknowns = int(asked.split(" unknowns of ψ")[0].split()[-1])
     # Of the mesh that a run makes, 24 thousand, k l = 640.
     assert 10_000 < unknowns < 60_000
+
+
+SPHERE = """
+kind = "sea"
+[[liquid]]
+density = 1000.0
+depth = inf
+[[body]]
+kind = "float"
+shape = "sphere"
+radius = 49.0
+motions = ["heave"]
+[[analysis]]
+kind = {analysis}
+[accuracy]
+tolerance = 1e-2
+"""
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize(
+    ("analysis", "key"),
+    [
+        ('"response"\nomega = [0.5, 6.0]', "omega"),
+        ('"spectrum"\nsignificant_height = 1.0\npeak_period = 4.0', "highest_omega"),
+    ],
+    ids=["response", "spectrum"],
+)
+def test_waves_that_scatter_in_too_many_orders_are_refused(
+    command: str, analysis: str, key: str, tmp_path: Path
+) -> None:
+    """k R = 180 would take hours: each azimuthal order has a mesh and matrices of its own."""
+    options = ("--no-images", "--out", str(tmp_path / "out")) if command == "run" else ()
+    result = invoke(tmp_path, command, SPHERE.format(analysis=analysis), *options)
+    assert result.exit_code == 2
+    # ω = √(75 g/R).
+    assert f'number 1, key "{key}" = 6' in said(result)
+    assert "Allowed: at most 3.875 rad/s, where k R = 75" in said(result)
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_damping_of_a_large_solid_among_short_waves_needs_few_orders(tmp_path: Path) -> None:
+    result = invoke(tmp_path, "check", SPHERE.format(analysis='"radiation"\nomega = [0.5, 6.0]'))
+    assert result.exit_code == 0

@@ -48,7 +48,7 @@ def resonances(bodies: list[dict[str, Any]], depth: float = np.inf, tolerance: f
     )
 
 
-@pytest.mark.slow_but("light beam-0.01", "two floats-0.01")
+@pytest.mark.slow_but("two floats-0.01")
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 @pytest.mark.parametrize("kind", list(BODIES))
 def test_as_many_resonances_are_listed_as_are_counted(kind: str, tolerance: float) -> None:
@@ -59,6 +59,7 @@ def test_as_many_resonances_are_listed_as_are_counted(kind: str, tolerance: floa
     assert table["counted"] == len(result.modes)
 
 
+@pytest.mark.slow
 def test_resonances_of_the_water_between_far_bodies_are_among_the_lowest() -> None:
     """Waves between two bodies come back in phase where k d is about a multiple of π: far apart, at low frequencies."""
     result = resonances(BODIES["damped floats far apart"], 12.0, count=4)

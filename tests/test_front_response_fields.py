@@ -90,6 +90,7 @@ def rigid_motions(file: Path, centres: list[tuple[float, float]]) -> list[np.nda
     return found
 
 
+@pytest.mark.slow_but("nothing", "all at a point")
 @pytest.mark.parametrize("kind", list(HOLDS))
 def test_bodies_in_the_file_move_as_the_table_says(kind: str, tmp_path: Path) -> None:
     result = he.solve(sea(BARGE, held=HOLDS[kind]))

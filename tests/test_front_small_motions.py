@@ -38,6 +38,7 @@ def true_errors(wavenumber: float, motions: tuple[str, ...], key: str) -> tuple[
 
 
 # Heave is 1.14, 0.09 and 2e-4 of the wave.
+@pytest.mark.slow_but("0.8", "2.4")
 @pytest.mark.parametrize("wavenumber", [0.1, 0.8, 2.4])
 def test_each_motion_is_within_its_own_error(wavenumber: float) -> None:
     errors, found = true_errors(wavenumber, ("heave", "surge", "pitch"), "amplitudes")
@@ -63,6 +64,7 @@ def test_a_float_that_follows_long_waves_scatters_in_the_first_order() -> None:
     assert found["scattering_width_error"] < 0.01 * found["scattering_width"]
 
 
+@pytest.mark.slow
 @pytest.mark.xfail(strict=True, reason="the equations of motion take damping from a + ib/ω, whose rest it is here")
 def test_the_resonance_of_a_spar_that_hardly_radiates_is_within_its_error() -> None:
     # A spring tunes it to its wave: a heave of 72 times the elevation, as large as the damping of 2e-4 ωa lets it be.

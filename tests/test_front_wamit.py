@@ -14,6 +14,7 @@ CYLINDER = {"shape": "cylinder", "radius": 5.0, "draught": 4.0, "motions": ["hea
 SECTION = {"shape": "rectangle", "half_width": 5.0, "half_height": 4.0, "motions": ["heave", "sway"]}
 
 
+@pytest.mark.slow_but("*cylinder*", "*inf")
 @pytest.mark.parametrize(("body", "depth"), [(CYLINDER, 30.0), (SECTION, 30.0), (SECTION, inf)], ids=str)
 def test_finite_added_mass_of_the_limits_is_written(body: dict[str, Any], depth: float, tmp_path: Path) -> None:
     width = {} if "radius" in body else {"width": 20.0}

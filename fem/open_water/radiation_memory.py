@@ -45,6 +45,7 @@ from hydroelastic.fem.time_domain.radiation_memory import (
     RadiationMemory,
     damping_tail,
     memory_on_ray,
+    motion_sizes,
     ray_radii,
 )
 from hydroelastic.physics.bodies import Body
@@ -53,6 +54,8 @@ from hydroelastic.physics.tank import Tank
 
 # Points of the ray, of the arc beyond it and of the real axis at which the basis must be accurate.
 _ON_RAY, _ON_ARC, _ON_AXIS = 40, 12, 20
+# Part of the tolerance that is left to the basis: its errors at low frequencies, of the ray and of the real axis, differ.
+_OF_BASIS = 0.1
 # Error of the trapezoidal rule along the ray.
 _RULE = 1e-9
 # Angle over α within which resonances of the water are sought: the continuous spectrum is at half of α.
@@ -120,7 +123,7 @@ class WaterMemory:
 
     @property
     def causality_error(self) -> Floats:
-        """Largest difference of both, relative to the largest |a + i b/ω| of both motions, shape (c,)."""
+        """Largest difference of both, relative to `motion_sizes` of both motions, shape (c,)."""
         return self._largest(np.abs(self.by_memory - self.hydrodynamic))
 
     @property
@@ -142,8 +145,8 @@ class WaterMemory:
         return errors
 
     def _largest(self, differences: Floats) -> Floats:
-        sizes = np.sqrt(np.abs(np.einsum("cii->ci", self.hydrodynamic)).max(axis=0))
-        largest: Floats = (differences / np.outer(sizes, sizes)).max(axis=(1, 2))
+        sizes = motion_sizes(self.hydrodynamic, self.memory.infinite_frequency_added_mass, self.tail)
+        largest: Floats = (differences / (sizes[:, :, None] * sizes[:, None])).max(axis=(1, 2))
         return largest
 
 
@@ -211,7 +214,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int, e
             """Make the basis accurate on the ray, the arc beyond it and at further ω; return its largest error."""
             along = np.geomspace(low, high, _ON_RAY) * ray.turned
             chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], further])
-            return float(sweep(hydrodynamics, chosen, problem.tolerance).errors.max())
+            return float(sweep(hydrodynamics, chosen, _OF_BASIS * problem.tolerance).errors.max())
 
         ray = _widest_ray(np.zeros(0), scaling)
         basis_error = swept_along(ray, axis)

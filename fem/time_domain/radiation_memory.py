@@ -171,7 +171,7 @@ class RadiationMemory:
             hydrodynamic: H = a + i b/ω there, shape (n, m, m).
             rates: p of the exponentials, 1/s, shape (k,).
             tail: K(0), and b beyond the last frequency.
-            errors: relative errors of H in the fit, and of a∞.
+            errors: of H in the fit, relative to H at each frequency, and of a∞.
         """
         unit, count = tail.highest, len(rates)
         beyond = unit * _BEYOND
@@ -188,21 +188,24 @@ class RadiationMemory:
         of_h = unit**2 * (hydrodynamic - self.hydrodynamic(omega))
         of_b = unit * (tail.damping(beyond) - self.radiation_damping(beyond))
         of_start = tail.start - self.weights.sum(axis=0).real
-        sizes, starts = _sizes(hydrodynamic), tail.sizes
+        limit, starts = self.infinite_frequency_added_mass, tail.sizes
+        sizes, limits = (unit * motion_sizes(h, limit, tail) for h in (hydrodynamic, limit[None]))
         found = np.zeros((2 * count + 1, *of_start.shape))
         for i, j in np.ndindex(of_start.shape):
             scale = sqrt(starts[i] * starts[j])
-            whole, doubt = unit**2 * sizes[i] * sizes[j] / scale, sqrt(tail.error[i] * tail.error[j]) + _LEAST_DOUBT
+            whole, least = (size[:, i] * size[:, j] / scale for size in (sizes, limits))
+            doubt = sqrt(tail.error[i] * tail.error[j]) + _LEAST_DOUBT
             rows = [
                 (known.real, of_h[:, i, j].real / scale, errors[0] * whole),
                 (known.imag, of_h[:, i, j].imag / scale, errors[0] * whole),
                 (damped, of_b[:, i, j] / scale, doubt),
                 (at_start, of_start[None, i, j] / scale, doubt),
                 (np.eye(2 * count, 2 * count + 1), np.zeros(2 * count), 1.0),
-                (np.eye(1, 2 * count + 1, 2 * count), np.zeros(1), errors[1] * whole),
+                (np.eye(1, 2 * count + 1, 2 * count), np.zeros(1), errors[1] * least),
             ]
             matrix, wanted = (
-                np.concatenate(parts) for parts in zip(*((a / e, b / e) for a, b, e in rows), strict=True)
+                np.concatenate(parts)
+                for parts in zip(*((a / np.reshape(e, (-1, 1)), b / e) for a, b, e in rows), strict=True)
             )
             found[:, i, j] = scale * np.linalg.lstsq(matrix, wanted, rcond=None)[0]
         return RadiationMemory(
@@ -305,7 +308,11 @@ def memory_on_ray(
     )
 
 
-def _sizes(hydrodynamic: Complexes) -> Floats:
-    """Square roots of the largest |H| of each motion, shape (m,)."""
-    sizes: Floats = np.sqrt(np.abs(np.einsum("cii->ci", hydrodynamic)).max(axis=0))
-    return np.maximum(sizes, np.finfo(float).tiny)
+def motion_sizes(hydrodynamic: Complexes | Floats, limit: Floats, tail: DampingTail) -> Floats:
+    """Return square roots of |H| of each motion at each frequency, at least of a∞ and K(0)/Ω², shape (n, m).
+
+    Over a bed b/ω of long waves has no bound: what is small beside the largest |H| may be large beside H.
+    """
+    least = np.maximum(np.diag(limit), tail.sizes / tail.highest**2)
+    sizes: Floats = np.sqrt(np.maximum(np.abs(np.einsum("nii->ni", hydrodynamic)), least))
+    return sizes

@@ -24,7 +24,7 @@ class ImpulseResponseTable:
         added_mass: (c, m, m) a∞ − (1/ω) ∫ K sin ωt dt.
         radiation_damping: (c, m, m) ∫ K cos ωt dt.
         causality_error: (c,) largest difference of a + i b/ω by K and by the solution at that frequency, relative to
-            the largest |a + i b/ω| of both motions.
+            |a + i b/ω| of both motions there, at least a∞ and K(0)/Ω².
         ogilvie_error: (c,) the same of a∞ by Ogilvie's relation and by the limit of infinite frequency.
         impulse_response_error: (n,) estimated error of K, relative to K(0) of both motions.
         relative_error: the largest of these, or the estimated relative error of H, from which K is made.

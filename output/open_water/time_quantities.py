@@ -29,7 +29,7 @@ IMPULSE_RESPONSE = Group("impulse_response", "impulse responses of radiation, by
     joined_array("radiation_damping", "radiation damping by the impulse responses", f"impulse_omega {OF_BODIES}",
         symbol="b", unit="kg/(m s)", of_roll=("kg/s", "kg m/s"), variable="impulse_radiation_damping"),
     joined_array("causality_error", "difference of added mass and damping by the impulse responses and in the "
-        "frequency domain, relative to the largest of both motions", "impulse_omega", unit="1",
+        "frequency domain, relative to the whole of both motions at each frequency", "impulse_omega", unit="1",
         short="causality error", shown=".1e"),
     joined_array("ogilvie_error", "difference of the added mass at infinite frequency by Ogilvie's relation and by its "
         "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e"),

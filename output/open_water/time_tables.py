@@ -51,8 +51,8 @@ def _impulse_response(table: ImpulseResponseTable, group: Group) -> Section:
             *thinned,
             f"Added mass at infinite frequency: {far}.",
             f"Added mass and damping by K at {len(table.omega)} frequencies from {table.omega[0]:.3g} to "
-            f"{table.omega[-1]:.3g} rad/s differ from the frequency domain by {largest(table.causality_error)} of the "
-            f"largest, added mass at infinite frequency by Ogilvie's relation from its limit by "
+            f"{table.omega[-1]:.3g} rad/s differ from the frequency domain by {largest(table.causality_error)} of "
+            f"themselves, added mass at infinite frequency by Ogilvie's relation from its limit by "
             f"{largest(table.ogilvie_error)}; estimated error {table.relative_error:.1e}.",
             "Coupling of motions: impulse_response.csv; what K gives back: impulse_response_check.csv.",
         ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, isclose, isinf, sqrt
+from math import ceil, inf, isclose, isinf, sqrt
 
 from pydantic_core import InitErrorDetails
 
@@ -14,10 +14,15 @@ from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, R
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
 from hydroelastic.scenes.models.round_plates import SeaPlate
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
+
+MOST_WAVES_AROUND = 75.0
+"""Largest k R of the waves that solids of revolution scatter, with the R of their largest waterplane: about as many
+azimuthal orders are solved, each with matrices of its own: 50 take minutes and gigabytes."""
 
 _DEEPEST = 1e8  # over the extent of bodies
 
@@ -106,6 +111,41 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 f"the waves at such late times are too long relative to {_drawn(scene)}",
                 allowed=f"0 to {shown_most(1.0 / slowest)} s",
             )
+
+
+def azimuthal_orders_can_be_solved(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield analyses of scattered waves that need too many azimuthal orders of solids of revolution."""
+    scattered = [(index, one) for index, one in enumerate(scene.analysis) if isinstance(one, Response | Spectrum)]
+    if not scene.is_revolved or not scattered:
+        return
+    # These need SciPy, which is slow to import.
+    from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+    from hydroelastic.modal.tank_estimates import two_layers
+    from hydroelastic.scenes.models.physical import physical_tank
+
+    water = physical_tank(scene)
+    layers, radius = two_layers(water), max(right for _, right in (body.waterplane for body in water.bodies))
+
+    def around(omega: float) -> float:
+        return radius * max(wave.wavenumber for wave in travelling_waves(layers, omega))
+
+    for index, analysis in scattered:
+        highest = analysis.request.band[1]
+        if around(highest) <= MOST_WAVES_AROUND:
+            continue
+        low, high = 0.0, highest
+        while high - low > 1e-4 * highest:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if around(middle) <= MOST_WAVES_AROUND else (low, middle)
+        is_response = isinstance(analysis, Response)
+        yield problem_at(
+            ("analysis", index, "omega" if is_response else "highest_omega"),
+            highest,
+            f"waves so much shorter than the radius of {radius:g} m, k R = {around(highest):.3g}, are scattered in "
+            f"about {ceil(around(highest))} azimuthal orders, too many to be solved",
+            allowed=f"at most {low:.4g} rad/s, where k R = {MOST_WAVES_AROUND:g}",
+            remedy="Leave out the higher frequencies" if is_response else "Give a lower highest_omega",
+        )
 
 
 def _drawn(scene: TankParts) -> str:

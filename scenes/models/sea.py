@@ -13,7 +13,7 @@ from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat, kind_of_sea
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
-from hydroelastic.scenes.models.open_checks import drag_is_heeded
+from hydroelastic.scenes.models.open_checks import azimuthal_orders_can_be_solved, drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plate_checks import (
@@ -143,6 +143,7 @@ class SeaScene(TankParts):
                 *STAGES,
                 (round_plates_keep_apart, round_plates_are_in_range),
                 (attachments_hold_bodies, drag_is_heeded, export_is_possible),
+                (azimuthal_orders_can_be_solved,),
             ),
         )
         return self

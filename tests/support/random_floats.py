@@ -7,7 +7,6 @@ from math import exp, log
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 import hydroelastic as he
 
@@ -41,8 +40,8 @@ def draw_floats(seed: int, count: int, *, wide: bool = False) -> list[he.TankSce
     scenes: list[he.TankScene] = []
     while len(scenes) < count:
         try:
-            scenes.append(he.TankScene.model_validate(_draw(random, wide=wide)))
-        except ValidationError:
+            scenes.append(he.TankScene(**_draw(random, wide=wide)))
+        except he.SceneError:
             # It sinks, capsizes, or has no room: the next one.
             continue
     return scenes

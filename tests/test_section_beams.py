@@ -124,7 +124,7 @@ def test_motions_without_stiffness_are_counted_and_not_listed() -> None:
     cover = {"start": 0.0, "length": 10.0, "ends": "guided"}
     expected = {
         # Heave and pitch of each beam, less one because the liquid's volume joins the heaves.
-        tank(free[0]): 1,
+        tank(free[0], held[1]): 1,
         tank(free[0], held[1], free[2]): 3,
         tank(beam(**cover)): 0,
         tank(free[0], top="rigid"): 1,
@@ -252,7 +252,7 @@ def test_deflections_and_elevations_keep_the_volume_and_have_unit_generalized_ma
     moved = np.trapezoid(data.deflection_of_body_1.values, x, axis=1)
     energy = 5e3 * np.trapezoid(bending**2, x, axis=1)
     if hydrostatic:
-        energy += 9810.0 * np.trapezoid(data.deflection_of_body_1.values ** 2, x, axis=1)
+        energy += 9810.0 * np.trapezoid(data.deflection_of_body_1.values**2, x, axis=1)
     largest = np.abs(data.deflection_of_body_1.values).max(axis=1)
     for piece in (1, 2):
         level = data[f"elevation_of_free_surface_{piece}"].values
@@ -291,9 +291,7 @@ def test_each_of_two_beams_keeps_the_tone_it_has_alone() -> None:
         kept(tank(*bodies, length=20.0, tolerance=1e-5, modes=6)) for bodies in ((LONG, SHORT), (SHORT, LONG))
     )
     tones = pair.summary["first_elastic_by_body"]
-    for body, tone, other in zip(
-        (LONG, SHORT), tones, swapped.summary["first_elastic_by_body"][::-1], strict=True
-    ):
+    for body, tone, other in zip((LONG, SHORT), tones, swapped.summary["first_elastic_by_body"][::-1], strict=True):
         alone = kept(tank(body, length=20.0, tolerance=1e-5, modes=6)).summary["first_elastic"]
         # Another beam 7 m away is felt by the liquid's displacement, a part of (l/distance)² of the added mass.
         assert tone["pressure_release_omega"] == pytest.approx(alone["pressure_release_omega"], rel=2e-2)

@@ -1,4 +1,4 @@
-"""Rigid floats in closed tanks: thin ones against their exact theory, and what statics and the liquid's inertia give."""
+"""Rigid floats in closed tanks: thin ones against exact theory, and what statics and the liquid's inertia give."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ def at_rest(*, upper: float | None = 800.0, unit: float = 1.0, **body: Any) -> d
 def corners_of(section: dict[str, Any]) -> np.ndarray:
     """The contour as a polygon of many corners, anticlockwise."""
     if section["shape"] == "polygon":
-        return np.array(section["vertices"])
+        return np.array(section["vertices"], dtype=float)
     profile = float_profile(section["shape"], section["half_width"], section["half_height"])
     # Dense towards the ends, where some profiles turn, and towards the kink in the middle.
     y = profile.extent * np.sin(0.5 * pi * np.linspace(-1.0, 1.0, 4001) ** 3)
@@ -98,7 +98,7 @@ def test_stiffnesses_are_those_of_a_section_that_is_moved(
         values["mass"] = area * (part * densities[0] + (1 - part) * densities[1])
     found = at_rest(**values)
     level = 4.0 if at == "surface" else 0.0
-    points = points + [10.0, found["reference_level"] - level]
+    points += np.array([10.0, found["reference_level"] - level])
     pivot = np.array(found["centre_of_mass"]) - [0.0, level]
 
     def displaced(heave: float, roll: float) -> np.ndarray:

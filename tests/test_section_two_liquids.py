@@ -123,9 +123,7 @@ def test_a_lighter_and_lighter_upper_liquid_becomes_air(kind: str) -> None:
     """ω is a smooth function of ρ₁ up to ρ₁ = 0; the least that is modelled is ρ₁ = 10⁻⁶ ρ₂."""
 
     def omega(*densities: float) -> np.ndarray:
-        return kept(
-            layered(*THIN_AIR[kind], densities=densities, top="free" if len(densities) == 1 else "rigid")
-        ).omega
+        return kept(layered(*THIN_AIR[kind], densities=densities, top="free" if len(densities) == 1 else "rigid")).omega
 
     air = omega(1000.0)
     once, twice = omega(1000.0, 1e-3), omega(1000.0, 2e-3)

@@ -51,7 +51,7 @@ class HardCase:
 
 def beam(
     start: float = 3.0, length: float = 4.0, *, rigidity: float = 2e-3, mass: float = 0.0125, **changes: Any
-) -> Beam:
+) -> he.Beam:
     """A beam by its groups EI' and m', in the liquid of the base tank."""
     given = {
         "start": start,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import pi, tanh
 from typing import Any
 
@@ -12,13 +11,8 @@ import pytest
 from dolfinx import fem
 from petsc4py import PETSc
 
-from hydroelastic.fem.cell_matrices import CellMatrices, condensed
-from hydroelastic.fem.liquid import LiquidSolver, cell_values, closed_layer, constrained_dofs
-from hydroelastic.fem.liquid_matrices import laplace_matrix
-from hydroelastic.fem.numbering import numbered
+from hydroelastic.fem.liquid import LiquidSolver, closed_layer
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.shape_loads import surface_load as surface_load_of
-from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 
 pytestmark = pytest.mark.mpi
@@ -99,25 +93,6 @@ def test_which_unknown_is_constrained_makes_no_difference(water: CoupledPencil) 
         assert difference.norm() <= ROUND_OFF * expected.norm()
 
 
-@pytest.mark.parametrize("closed", [True, False])
-def test_all_loads_at_once_are_those_one_by_one(water: CoupledPencil, closed: bool) -> None:
-    """Held unknowns are zero exactly, for their rows are those of the identity."""
-    if water.laplace.comm.size > 1:
-        pytest.skip("all loads at once are for one process")
-    size = water.laplace.getSize()[0]
-    held = np.array([size // 2]) if closed else np.arange(0, size, 7)
-    layers = (closed_layer(water.liquid, 0, surface_load(water).array),) if closed else ()
-    solver = LiquidSolver(water.laplace, held.astype(np.int32), layers)
-    answers = solver.solve_all(water.coupling)
-    load = water.coupling.createVecLeft()
-    for column in (0, answers.shape[1] // 2, answers.shape[1] - 1):
-        water.coupling.getColumnVector(column, load)
-        expected = solved(water, load, solver).array_r
-        assert np.linalg.norm(answers[:, column] - expected) <= ROUND_OFF * np.linalg.norm(expected)
-    if not closed:
-        assert not answers[held].any()
-
-
 def test_a_constant_load_along_the_water_moves_nothing(water: CoupledPencil) -> None:
     """A⁺ projects the net flux out: a closed liquid cannot give way to it."""
     load = surface_load(water)
@@ -149,16 +124,6 @@ def test_a_surface_wave_has_its_exact_added_mass(water: CoupledPencil, number: i
     # Measured 2e-13 and below.
     wavenumber = number * pi / LENGTH
     assert wave_quotient(water, number) == pytest.approx(1.0 / (wavenumber * tanh(wavenumber * DEPTH)), rel=1e-11)
-
-
-@pytest.mark.slow_on_ranks_but
-def test_long_waves_over_a_thin_layer_keep_their_digits(tanks: Any) -> None:
-    """ω² = gk tanh kH over a depth of a hundredth of the length. Measured: 3e-13; 9e-12 where the cells' matrices leave
-    a constant the energy of rounding."""
-    scene = tanks.scene(depth=0.1)
-    wavenumbers = pi * np.arange(1, 5) / 10.0
-    exact = np.sqrt(9.81 * wavenumbers * np.tanh(0.1 * wavenumbers))
-    assert tanks.omega(scene)[:4] == pytest.approx(exact, rel=2e-12)
 
 
 def test_the_added_mass_of_a_wave_converges_exponentially_in_the_degree(tanks: Any) -> None:
@@ -220,78 +185,3 @@ def test_loads_of_high_dry_modes_are_exact_on_coarse_elements(beam: CoupledPenci
     loads = beam.coupling.createVecRight()
     beam.coupling.multTranspose(polynomial, loads)
     assert beam.body_values(loads)[index] == pytest.approx(exact_load(index, power, start, length), abs=1e-13)
-
-
-@pytest.mark.slow_on_ranks_but("3-60")
-@pytest.mark.parametrize("index", [2, 60, 61])
-@pytest.mark.parametrize("power", [1, 3, 5])
-def test_loads_on_a_single_element_are_exact(beam: CoupledPencil, index: int, power: int) -> None:
-    """Sums over elements may hide errors that cancel. Powers of (x − 0.5)₊ live on the beam's right element alone.
-
-    The reference is a rule of 400 points where thirty half waves need some forty. The mesher puts the node at 0.5 to
-    1e-13, which changes the load by up to 1e-14.
-    """
-    on_beam = beam.liquid.tank.facets("body_1")
-    assert beam.liquid.tank.mesh.comm.allreduce(len(on_beam)) == 2
-    places, weights = np.polynomial.legendre.leggauss(400)
-    x = 0.6 + 0.1 * places
-    expected = 0.1 * (weights * free_free_shape(index, (x - 0.3) / 0.4)) @ (x - 0.5) ** power
-    loads = beam.coupling.createVecRight()
-    beam.coupling.multTranspose(as_vector(beam, lambda x: np.maximum(x[0] - 0.5, 0.0) ** power), loads)
-    assert beam.body_values(loads)[index] == pytest.approx(expected, abs=2e-14)
-
-
-def test_condensed_unknowns_inside_of_cells_follow_as_solved(tanks: Any) -> None:
-    """Against the same matrix with all unknowns: the answer to one load, on the boundaries of cells and inside."""
-    pencil = tanks.pencil(tanks.scene(tanks.beam()), degree=6, size=0.25)
-    condensed = pencil.liquid
-    liquid = replace(condensed, cells=CellMatrices(numbering=numbered(condensed.space, condensed=False)))
-    load = as_vector(pencil, lambda x: x[0])
-    moved = pencil.coupling.createVecRight()
-    pencil.coupling.multTranspose(load, moved)
-    pencil.coupling.mult(moved, load)
-    matrix = laplace_matrix(liquid)
-    whole, answer = matrix.createVecs()
-    whole.array[condensed.numbering.owned_dofs] = load.array_r
-    # The constant carries flux; its projection needs ∫q on each set of unknowns.
-    surface = tuple(dict.fromkeys([one.surface for one in (*pencil.bodies, *pencil.surfaces)]))
-    solver = LiquidSolver(
-        matrix, constrained_dofs(liquid), (closed_layer(liquid, 0, surface_load_of(liquid, surface)),)
-    )
-    solver.solve(whole, answer)
-    (expected,) = cell_values(liquid, [answer])
-    (found,) = cell_values(condensed, [solved(pencil, load)])
-    # The operator's condition times a double's rounding.
-    assert np.abs(found - expected).max() <= ROUND_OFF * np.abs(expected).max()
-
-
-def test_similar_triangles_share_their_matrices(tanks: Any) -> None:
-    """Against each cell's own matrix, condensed: in the rings around both tips most cells are similar to others."""
-    liquid = tanks.pencil(tanks.scene(tanks.beam()), degree=6, size=0.25).liquid
-    numbering = liquid.numbering
-    cells = np.arange(len(liquid.cells.laplace), dtype=np.int32)
-    full = liquid.cells.integrals(cells, np.ones((len(cells), 1, 2)))
-    laplace, extension = condensed(full, len(numbering.outside))
-    different = len(np.unique(liquid.cells.laplace, axis=0))
-    assert liquid.tank.mesh.comm.allreduce(different) < liquid.tank.cell_count
-    assert liquid.cells.laplace == pytest.approx(laplace, rel=0.0, abs=1e-10 * np.abs(laplace).max(initial=0.0))
-    assert liquid.cells.extension == pytest.approx(extension, rel=0.0, abs=1e-10)
-
-
-def test_a_matrix_that_is_not_positive_definite_is_refused(water: CoupledPencil) -> None:
-    matrix = water.laplace.copy()
-    matrix.zeroRowsColumns([matrix.size[0] // 2], diag=0.0)
-    with pytest.raises(EigenSolverError, match="not positive definite"):
-        LiquidSolver(matrix, constrained_dofs(water.liquid), ())
-
-
-def test_factors_that_were_given_back_are_made_again(water: CoupledPencil) -> None:
-    solver = LiquidSolver(water.laplace, constrained_dofs(water.liquid), ())
-    load = random_load(water, 1)
-    before = solved(water, load, solver)
-    solver.release()
-    solver.release()
-    after = solved(water, load, solver)
-    after.axpy(-1.0, before)
-    # The same factorization: rounding of sums over processes only.
-    assert after.norm() <= 1e-12 * before.norm()

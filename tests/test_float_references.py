@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import surface_reference as surface
 from float_added_mass import high_frequency_added_mass
-from float_boundary_integrals import second_omega
 from float_reference import reference_modes
 from float_sections import section
 from float_tanks import Fineness, float_tank
@@ -61,15 +60,6 @@ def test_beams_have_eleven_digits(name: str) -> None:
     # Measured: 9e-12 and 3e-12 where λ spans five decades (full_cover), 1e-13 and 4e-15 else.
     assert max(BEAMS[name]["self_convergence"].values()) <= 2e-11
     assert BEAMS[name]["agreement"] is None or BEAMS[name]["agreement"] <= 1e-11
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["circle_off_centre", "rectangle", "two_liquids_open"])
-def test_boundary_integrals_give_the_same(name: str) -> None:
-    omega = second_omega(float_tank(FLOATS[name]["scene"]), 6, smallest=1e-4, pieces=6)
-    # Twelve digits are stored; measured 1e-14 for smooth hulls. At corners panels of 1e-4 leave
-    # their 4/3rd power, 1e-10.
-    np.testing.assert_allclose(omega, numbers(FLOATS[name]["omega"]), rtol=3e-10 if name == "rectangle" else 5e-12)
 
 
 def test_two_free_levels_obey_their_dispersion_relation() -> None:

@@ -41,12 +41,3 @@ def test_regimes_meet() -> None:
     # d/dα is at most t²e^{−t} here: a shift of 1e-12 changes little more than rounding does.
     assert below == pytest.approx(at, abs=1e-11)
     assert above == pytest.approx(at, abs=1e-11)
-
-
-def test_oscillators_of_all_regimes_stand_in_one_array() -> None:
-    first, second = damped_pair([0.5, 1.0, 2.0], 1.0, TIMES)
-    assert first.shape == second.shape == (3, len(TIMES))
-    for row, frequency in enumerate([0.5, 1.0, 2.0]):
-        alone = damped_pair(frequency, 1.0, TIMES)
-        assert np.array_equal(first[row], alone[0][0])
-        assert np.array_equal(second[row], alone[1][0])

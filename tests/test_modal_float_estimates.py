@@ -68,12 +68,6 @@ def test_the_box_is_the_float_mode_of_the_secular_equation() -> None:
     assert estimate.omega == box_modes(body("parabola"), 16).omega[2]
 
 
-def test_an_unknown_section_has_its_hydrostatics_only() -> None:
-    estimates = all_float_estimates(dataclasses.replace(body("wedge"), profile=None))
-    assert [name for name, estimate in estimates.items() if estimate.omega is not None] == ["hydrostatic"]
-    assert "not a known symmetric shape" in estimates["thin_float_box"].note
-
-
 def test_reasons() -> None:
     assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float"].note
     assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float_box"].note

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from hydroelastic.physics.profiles import Profile, float_profile
+from hydroelastic.physics.profiles import float_profile
 
 SHAPES = ["exponential", "parabola", "ellipse", "wedge", "rectangle"]
 EPS = np.finfo(float).eps
@@ -45,15 +45,6 @@ def test_slope_is_the_derivative_odd_and_negative_above(shape: str) -> None:
     assert profile.slope_at(0.0) == 0
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_nothing_is_outside(shape: str) -> None:
-    profile = float_profile(shape, 0.3, 2.0)
-    beyond = np.array([-1.001, 1.001, 5]) * profile.extent
-    assert not profile.half_width_at(beyond).any()
-    assert not profile.slope_at(beyond).any()
-    assert profile.half_width_at(0.0) == pytest.approx(0.3, rel=2 * EPS)
-
-
 @pytest.mark.parametrize("tail", [1e-300, 1e-12, 1e-3, 0.5, 1 - 1e-9])
 def test_the_exponential_ends_in_a_point(tail: float) -> None:
     profile = float_profile("exponential", 0.3, 2.0, tail=tail)
@@ -63,36 +54,3 @@ def test_the_exponential_ends_in_a_point(tail: float) -> None:
     np.testing.assert_allclose(profile.half_width_at(y), expected, atol=0.3 * 8 * EPS / (1 - tail))
     assert profile.half_width_at(profile.extent) == 0
     assert profile.extent == pytest.approx(-2 * math.log(tail), rel=1e-15)
-
-
-def test_the_unbounded_exponential_has_no_outline() -> None:
-    profile = float_profile("exponential", 0.3, 2.0, tail=0)
-    assert profile.half_width_at(200.0) == pytest.approx(0.3 * math.exp(-100), rel=1e-14)
-    assert math.isinf(profile.extent)
-    with pytest.raises(ValueError, match="no outline"):
-        _ = profile.arcs
-    with pytest.raises(ValueError, match="no outline"):
-        _ = profile.corners
-
-
-def test_the_ellipse_has_no_corners_and_vertical_ends() -> None:
-    profile = float_profile("ellipse", 0.3, 2.0)
-    assert profile.corners.shape == (0, 2)
-    assert profile.slope_at(2.0) == -math.inf
-    assert not profile.is_blunt
-    assert float_profile("rectangle", 0.3, 2.0).is_blunt
-
-
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        ({"shape": "disc"}, "shape is 'disc'"),
-        ({"half_width": 0.0}, "half_width"),
-        ({"half_height": math.inf}, "half_height"),
-        ({"shape": "exponential", "tail": 1.0}, "tail"),
-        ({"shape": "wedge", "tail": 0.1}, "tail belongs to the exponential"),
-    ],
-)
-def test_what_is_no_section_is_refused(values: dict[str, object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        Profile(**({"shape": "wedge", "half_width": 1.0, "half_height": 1.0} | values))

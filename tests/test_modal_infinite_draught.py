@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.modal.floats.infinite_draught import cut_distance, infinite_draught_float
-from hydroelastic.modal.floats.thin_float_decay import free_motion
+from hydroelastic.modal.floats.infinite_draught import infinite_draught_float
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import Profile
 
@@ -20,18 +19,6 @@ CASES = {
         "cases"
     ]
 }
-
-
-@pytest.mark.slow_but("0.55-*")
-@pytest.mark.parametrize("tail", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
-@pytest.mark.parametrize("slenderness", [0.1, 0.55, 1.0])
-def test_estimate_of_the_cut(slenderness: float, tail: float) -> None:
-    profile = Profile(shape="exponential", half_width=slenderness, half_height=1.0, tail=tail)
-    infinite = Profile(shape="exponential", half_width=slenderness, half_height=1.0)
-    times = np.linspace(0.0, 60.0, 601)
-    distance = np.abs(free_motion(profile, times).heave - free_motion(infinite, times).heave).max()
-    # Measured: 1.07 to 1.27.
-    assert 1.0 < cut_distance(profile) / distance < 1.4
 
 
 @pytest.mark.parametrize("name", ["pole_exp_eps0.1", "pole_exp_eps1"])

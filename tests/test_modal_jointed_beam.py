@@ -179,25 +179,6 @@ def test_shapes_keep_the_conditions_at_ends_steps_and_joints(name: str) -> None:
     assert np.abs(kinks / slopes).max(initial=0.0) < 1e-8
 
 
-def test_a_beam_and_its_mirror_image_have_mirrored_shapes() -> None:
-    modes, mirrored = jointed_modes(STEPPED, 30), jointed_modes(STEPPED.reversed, 30)
-    x = np.linspace(0.0, STEPPED.length, 301)
-    assert mirrored.squared_frequencies == pytest.approx(modes.squared_frequencies, rel=1e-12)
-    assert np.abs(mirrored.shapes(STEPPED.length - x) - modes.shapes(x)).max() < 1e-11
-    assert modes.parities == (1,) * 30
-    assert SYMMETRIC.is_mirror_image
-    assert not STEPPED.is_mirror_image
-
-
-def test_shapes_of_a_symmetric_beam_are_even_or_odd() -> None:
-    modes = jointed_modes(SYMMETRIC, 40)
-    x = np.linspace(0.0, SYMMETRIC.length, 301)
-    signs = np.array(modes.parities)[:, None]
-    assert modes.dofs[:5] == ("heave", "pitch", "hinge 1", "hinge 2", "elastic 1")
-    assert modes.parities[:4] == (1, -1, 1, -1)
-    assert np.abs(modes.shapes(SYMMETRIC.length - x) - signs * modes.shapes(x)).max() < 1e-10
-
-
 def test_a_chain_of_hinges_has_a_rigid_shape_more_for_each() -> None:
     chain = beam(((5.0, 1.0, 1.0),), *((place, 0.0) for place in (1.0, 2.0, 3.0, 4.0)))
     modes = jointed_modes(chain, 10)
@@ -205,36 +186,3 @@ def test_a_chain_of_hinges_has_a_rigid_shape_more_for_each() -> None:
     assert np.count_nonzero(modes.squared_frequencies == 0.0) == 6
     inside = np.array([0.3, 1.2, 2.9, 4.4])
     assert np.abs(modes.shapes(inside, 2)[:6]).max() == pytest.approx(0.0, abs=0.0)
-
-
-def test_fewer_modes_are_the_first_of_many() -> None:
-    few, many = jointed_modes(STEPPED, 5), jointed_modes(STEPPED, 80)
-    assert few.squared_frequencies == pytest.approx(many.squared_frequencies[:5], rel=1e-12)
-    assert few.dofs == many.dofs[:5]
-
-
-@pytest.mark.parametrize(
-    ("parts", "joints"),
-    [
-        ((), ()),
-        (((1.0, 0.0, 1.0),), ()),
-        (((1.0, 1.0, np.inf),), ()),
-        (((1.0, 1.0, 1.0),), ((0.0, 1.0),)),
-        (((1.0, 1.0, 1.0),), ((1.0, 1.0),)),
-        (((1.0, 1.0, 1.0),), ((0.5, -1.0),)),
-        (((1.0, 1.0, 1.0),), ((0.5, 1.0), (0.5, 2.0))),
-    ],
-)
-def test_what_is_no_beam_is_refused(parts: Parts, joints: tuple[tuple[float, float], ...]) -> None:
-    with pytest.raises(ValueError, match=r"joint|sections"):
-        beam(parts, *joints)
-
-
-def test_places_and_orders_beyond_the_beam_are_refused() -> None:
-    modes = jointed_modes(STEPPED, 5)
-    with pytest.raises(ValueError, match="on the beam"):
-        modes.shapes(np.array([2.5]))
-    with pytest.raises(ValueError, match="orders 0, 1, 2 and 3"):
-        modes.shapes(np.array([0.5]), 4)
-    with pytest.raises(ValueError, match="must not be negative"):
-        jointed_modes(STEPPED, -1)

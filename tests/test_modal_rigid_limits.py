@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from section_panels import added_masses
 
-from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
 from hydroelastic.modal.floats.thin_float import thin_float_added_mass
 from hydroelastic.physics.profiles import float_profile
@@ -110,23 +109,6 @@ def test_thin_sections_approach_the_thin_float() -> None:
     assert 1.7 < coarse / fine < 2.3
 
 
-def test_flat_sections_approach_the_plate() -> None:
-    for shape in ("wedge", "rectangle"):
-        flat = section_heave_added_mass(float_profile(shape, 1.0, 1e-6), 1.0)
-        # Error O((h/b) ln(h/b)), about 1e-5.
-        assert flat == pytest.approx(math.pi / 2, rel=3e-5)
-
-
-def test_equal_liquids_are_one() -> None:
-    # ρ₁ = ρ₂: the interface vanishes, the ellipse has πρh², π/8 ρ(b² − h²)² and no coupling; no upper liquid: half.
-    whole = interface_ellipse(0.5, 1.0, 1.0, 1.0)
-    assert whole.sway == pytest.approx(math.pi)
-    assert whole.heave == pytest.approx(math.pi / 4)
-    assert whole.roll == pytest.approx(math.pi / 8 * 0.75**2)
-    assert whole.sway_roll == 0
-    assert interface_ellipse(0.5, 1.0, 1.0, 0.0) == half_immersed_ellipse(0.5, 1.0, 1.0)
-
-
 def test_roll_about_another_point() -> None:
     # The square of a combined motion: x = y_G sway + roll, and twice the shift is two shifts.
     found = half_immersed_ellipse(0.5, 1.0, 1.0)
@@ -135,10 +117,3 @@ def test_roll_about_another_point() -> None:
     assert found.about(0.3).roll == pytest.approx(combined @ matrix @ combined, rel=PANELS)
     assert found.about(0.3).sway_roll == pytest.approx(np.array([0.0, 1.0, 0.0]) @ matrix @ combined, rel=PANELS)
     assert found.about(0.1).about(0.2).roll == pytest.approx(found.about(0.3).roll, rel=1e-14)
-
-
-def test_what_has_no_closed_form_says_so() -> None:
-    with pytest.raises(NoEstimateError, match="no closed form"):
-        section_heave_added_mass(float_profile("parabola", 1.0, 1.0), 1.0)
-    with pytest.raises(ValueError, match="negative"):
-        half_immersed_ellipse(-1.0, 1.0, 1.0)

@@ -11,7 +11,6 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import iv, modstruve
 
-from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.thin_float import (
     thin_constants,
     thin_float_added_mass,
@@ -170,13 +169,3 @@ def test_frequency_is_that_of_stiffness_and_masses() -> None:
         assert stiffness == pytest.approx(0.2 * 9.81 * 0.6, rel=4 * EPS)
         total = mass + thin_float_added_mass(profile, 1.0, 0.8)
         assert thin_float_frequency(profile, 1.0, 0.8, 9.81) == pytest.approx(math.sqrt(stiffness / total), rel=8 * EPS)
-
-
-def test_blunt_sections_have_no_thin_theory() -> None:
-    rectangle = float_profile("rectangle", 0.1, 1.0)
-    for function in (area_factor, inertia_factor, flux_rule, thin_constants, wave_moment_series):
-        with pytest.raises(NoEstimateError, match="flat edges"):
-            function(rectangle)
-    for function in (wave_moment, sine_moment, end_wave_moment):
-        with pytest.raises(NoEstimateError, match="flat edges"):
-            function(rectangle, np.array([1.0]))

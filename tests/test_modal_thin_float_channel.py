@@ -6,14 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from thin_floats import CASES, CHANNEL, UNIT, number, thin
+from thin_floats import CASES, CHANNEL, number, thin
 
-from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.open_float import open_float_estimate, released_float
-from hydroelastic.modal.floats.thin_float_decay import crossover_time, free_motion
-from hydroelastic.modal.floats.thin_float_radiation import thin_float_radiation
-from hydroelastic.modal.floats.thin_float_resonance import heave_pole, pole_count
-from hydroelastic.modal.floats.wave_integral import wave_integral
+from hydroelastic.modal.floats.thin_float_decay import crossover_time
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import float_profile
 
@@ -43,32 +39,3 @@ def test_estimate_in_si_units() -> None:
     motion = released_float(profile, layers, 3.0 / rate)
     assert motion.heave == pytest.approx(float(CASES["f_wedge_tau0.1"]["values"]["f"][2]), abs=1e-14)
     assert open_float_estimate(thin("parabola", 0.1), CHANNEL, [1.0]).crossover_time is None
-
-
-@pytest.mark.slow
-def test_refusals() -> None:
-    blunt = float_profile("rectangle", 0.1, 1.0)
-    for refused in (
-        lambda: thin_float_radiation(blunt, UNIT, 1.0),
-        lambda: free_motion(blunt, 1.0),
-        lambda: heave_pole(blunt),
-        lambda: wave_integral(blunt, 1j),
-        lambda: open_float_estimate(blunt, CHANNEL, 1.0),
-    ):
-        with pytest.raises(NoEstimateError, match="flat edges"):
-            refused()
-    with pytest.raises(NoEstimateError, match="infinitely deep"):
-        released_float(thin("exponential", 0.1), CHANNEL, 1.0)
-    free = TwoLayers(density_below=1.0, density_above=0.8, depth_below=2.0, depth_above=2.0, gravity=9.81, top="free")
-    with pytest.raises(NoEstimateError, match="rigid lid"):
-        thin_float_radiation(thin("wedge", 0.1), free, 1.0)
-    with pytest.raises(NoEstimateError, match="so wide"):
-        free_motion(thin("wedge", 1e4), 1.0)
-    for time in (-1.0, math.nan, math.inf):
-        with pytest.raises(ValueError, match="times"):
-            free_motion(thin("wedge", 0.1), time)
-    for omega in (0.0, -1.0, math.nan):
-        with pytest.raises(ValueError, match="frequencies"):
-            thin_float_radiation(thin("wedge", 0.1), UNIT, omega)
-    with pytest.raises(ValueError, match="angle"):
-        pole_count(thin("wedge", 0.1), 3.0)

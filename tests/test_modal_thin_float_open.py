@@ -12,30 +12,16 @@ from scipy.special import exp1, expi
 from thin_floats import CASES, EPS, SHAPES, UNIT, gauss, number, of_case, of_coupling, thin
 
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats import thin_float_decay as decay
-from hydroelastic.modal.floats.thin_float import thin_constants, thin_float_mass, thin_float_stiffness
+from hydroelastic.modal.floats.thin_float import thin_constants, thin_float_mass
 from hydroelastic.modal.floats.thin_float_decay import crossover_time, free_motion, free_motion_tail
 from hydroelastic.modal.floats.thin_float_radiation import thin_float_radiation
 from hydroelastic.modal.floats.thin_float_resonance import heave_pole, pole_count, second_pole
 from hydroelastic.modal.floats.thin_shapes import wave_moment
 from hydroelastic.modal.floats.wave_integral import greatest_angle
-from hydroelastic.modal.liquid.two_layer import TwoLayers
-from hydroelastic.physics.profiles import FloatShape, Profile
+from hydroelastic.physics.profiles import FloatShape
 
 MOTIONS = [name for name in CASES if name.startswith("f_")]
 POLES = [name for name in CASES if name.startswith(("pole_", "f_wedge", "f_parabola", "f_ellipse"))]
-
-
-def spectral(profile: Profile, layers: TwoLayers, time: npt.NDArray, cut: float) -> npt.NDArray:
-    """f = (2/π) ∫ c b cos ωt/|c − ω²(m + a) − iωb|² dω, for floats wide enough to have a broad resonance."""
-    near, far = np.linspace(0.02, 20, 300), np.linspace(20.5, cut, 2 * round(cut) - 40)
-    omega, weights = gauss(np.concatenate([[0.0], np.geomspace(1e-9, 1e-2, 40), near, far]))
-    radiation = thin_float_radiation(profile, layers, omega)
-    mass = thin_float_mass(profile, layers.density_below, layers.density_above)
-    stiffness = thin_float_stiffness(profile, layers.density_below, layers.density_above, layers.gravity)
-    answer = stiffness - omega**2 * (mass + radiation.added_mass) - 1j * omega * radiation.damping
-    density = 2 / math.pi * stiffness * radiation.damping / np.abs(answer) ** 2
-    return np.cos(np.multiply.outer(time, omega)) @ (weights * density)
 
 
 def volterra(coupling: float, end: float, steps: int) -> float:
@@ -148,13 +134,6 @@ def test_beginning_tail_and_crossover(shape: FloatShape, slenderness: float) -> 
         assert abs(free_motion_tail(profile, 2 * crossing)) > 2 * math.exp(2 * pole.frequency.real * crossing)
 
 
-def test_crossover_of_the_references() -> None:
-    assert crossover_time(of_coupling(1e-4)) == pytest.approx(9.2e5, rel=5e-3, abs=0)
-    assert crossover_time(of_coupling(0.1)) == pytest.approx(316, rel=2e-3, abs=0)
-    with pytest.raises(NoEstimateError, match="at all times"):
-        crossover_time(of_coupling(1.99))
-
-
 @pytest.mark.slow_but("exponential")
 @pytest.mark.parametrize("shape", ["exponential", "wedge"])
 def test_the_whole_motion_has_mean_zero(shape: FloatShape) -> None:
@@ -181,41 +160,6 @@ def test_motion_against_the_volterra_equation(coupling: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("slenderness", [1.0, 2.0, 5.0])
-def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float) -> None:
-    """f from a and b at real frequencies, for floats whose second pole comes near the ray."""
-    profile = thin(shape, slenderness, tail=0.05)
-    theta = np.array([0.0, 0.7, 3.0, 20.0])
-    # The integrand falls like ω⁻⁷ at least: 1e-13 is left beyond 200.
-    expected = spectral(profile, UNIT, theta, 200.0)
-    np.testing.assert_allclose(free_motion(profile, theta).heave, expected, rtol=0, atol=2e-13)
-
-
-def test_a_short_end_only_changes_the_units() -> None:
-    """A tail near 1 leaves a wedge of half-height 1 − tail, in units of which h is long."""
-    for end in (1e-2, 1e-6):
-        profile = thin("exponential", 0.2 * end, tail=1 - end)
-        theta = np.array([0.0, 1.0, 10.0])
-        short = free_motion(profile, theta * math.sqrt(end)).heave
-        # The exponential and a straight line differ by end/8 of the half-width.
-        np.testing.assert_allclose(short, free_motion(thin("wedge", 0.2), theta).heave, rtol=0, atol=3 * end)
-
-
-def test_both_plans_of_the_ray_agree(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Near ε = 1/2, where the poles of the exponential are closest, one or both of them to the right of the ray."""
-    theta = np.array([0.0, 0.1, 2.0, 30.0, 1e3])
-    for coupling in (0.3, 0.45, 0.5, 0.6):
-        motions = []
-        for threshold in (0.0, 1.0):
-            monkeypatch.setattr(decay, "_BOTH_POLES", threshold)
-            decay._plan.cache_clear()
-            motions.append(free_motion(of_coupling(coupling), theta).heave)
-        np.testing.assert_allclose(*motions, rtol=1e-12, atol=4 * EPS)
-    decay._plan.cache_clear()
-
-
-@pytest.mark.slow
 def test_slender_floats_and_late_times() -> None:
     """τθ fixed while τ → 0: f → e^{−τθ/4} cos θ for the exponential, with a rounding of the phase of θ·ulp."""
     for slenderness in (1e-3, 1e-5, 1e-7):
@@ -229,16 +173,3 @@ def test_slender_floats_and_late_times() -> None:
     many = free_motion(thin("wedge", 0.1), np.linspace(0, 1e4, 2501).reshape(61, 41))
     assert many.heave.shape == many.error.shape == (61, 41)
     assert np.all(np.abs(many.heave) <= 1 + many.error)
-
-
-def test_a_rule_that_is_too_coarse_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    """f(0) = 1 is no part of the formula; a smaller fault shows in the error estimate."""
-    profile, theta = thin("wedge", 1.0), np.array([0.3, 2.0])
-    exact = free_motion(profile, theta).heave
-    monkeypatch.setattr(decay, "_DIGITS", 12)
-    with pytest.raises(NoEstimateError, match="begins at"):
-        free_motion(profile, theta)
-    monkeypatch.setattr(decay, "SELF_CHECK", 1.0)
-    coarse = free_motion(profile, theta)
-    assert np.all(np.abs(coarse.heave - exact) > 1e-11)
-    assert np.all(np.abs(coarse.heave - exact) < 2 * coarse.error)

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.modal.liquid.sloshing import sloshing_frequencies
 from hydroelastic.modal.liquid.two_layer import InterfacePlate, TwoLayers, interface_frequencies, tank_modes
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_liquid_beam.json").read_text(encoding="utf-8"))
@@ -127,19 +126,6 @@ def test_limits_of_long_and_short_waves() -> None:
                 assert float(found["surface"]) == pytest.approx(math.sqrt(9.81 * number), rel=ROUNDING)
 
 
-def test_tops_are_ordered_by_their_constraints() -> None:
-    # A lid is a constraint on the free top, hence above its lowest root; ψ = 0 leaves the liquid less inertia than the
-    # lid. With ρ₁ → ρ₂ lid and free top agree.
-    k = np.array([0.05, 0.5, 5.0])
-    lid, free, released = (
-        interface_frequencies(layers(top=top), k)["internal"] for top in ("rigid", "free", "pressure_release")
-    )
-    assert np.all(free <= lid)
-    assert np.all(lid <= released)
-    close = [interface_frequencies(layers(density_above=1 - 1e-9, top=top), k)["internal"] for top in ("rigid", "free")]
-    np.testing.assert_allclose(close[0], close[1], rtol=1e-8)
-
-
 def test_reference_tank_without_a_beam() -> None:
     row = next(row for row in REFERENCE["rows"] if row["case"] == "K_no_beam")
     two = TwoLayers(
@@ -156,21 +142,6 @@ def test_reference_tank_without_a_beam() -> None:
     assert [(mode.branch, mode.number) for mode in modes] == [("internal", number) for number in range(1, 9)]
 
 
-def test_tank_modes_are_merged_in_ascending_order() -> None:
-    two = layers(density_above=0.5)
-    modes = tank_modes(two, 4.0, 12)
-    omega = [mode.omega for mode in modes]
-    assert omega == sorted(omega)
-    every = interface_frequencies(two, np.arange(1, 200) * math.pi / 4)
-    lowest = np.sort(np.concatenate(list(every.values())))[:12]
-    np.testing.assert_array_equal(omega, lowest)
-    assert {mode.branch for mode in modes} == {"internal", "surface"}
-    for mode in modes:
-        assert mode.omega == every[mode.branch][mode.number - 1]
-    single = tank_modes(layers(density_above=0.0), 4.0, 5)
-    np.testing.assert_allclose([mode.omega for mode in single], sloshing_frequencies(4.0, 2.0, 9.81, 5), rtol=ROUNDING)
-
-
 @pytest.mark.parametrize("top", ["rigid", "pressure_release"])
 def test_guided_plate_on_the_interface(top: str) -> None:
     plate = InterfacePlate(flexural_rigidity=2.0, mass_per_length=0.3)
@@ -180,29 +151,3 @@ def test_guided_plate_on_the_interface(top: str) -> None:
     expected = math.sqrt((2.0 * k**4 + 0.2 * 9.81) / (0.3 + loads))
     modes = tank_modes(layers(top=top), 4.0, 2, plate)
     assert modes[1].omega == pytest.approx(expected, rel=ROUNDING)
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"density_above": 1.0}, "overturns"),
-        ({"density_above": 1.2}, "overturns"),
-        ({"density_above": -0.1}, "at least 0"),
-        ({"depth_above": 0.0}, "depth_above"),
-        ({"gravity": math.nan}, "gravity"),
-    ],
-)
-def test_liquids_that_cannot_rest_are_refused(changes: dict[str, float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        layers(**changes)
-
-
-def test_wrong_questions_are_refused() -> None:
-    with pytest.raises(ValueError, match="positive"):
-        interface_frequencies(layers(), [1.0, 0.0])
-    with pytest.raises(ValueError, match="count"):
-        tank_modes(layers(), 1.0, 0)
-    with pytest.raises(ValueError, match="tank_length"):
-        tank_modes(layers(), math.inf, 1)
-    with pytest.raises(ValueError, match="flexural_rigidity"):
-        InterfacePlate(flexural_rigidity=-1.0, mass_per_length=0.0)

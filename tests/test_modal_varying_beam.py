@@ -99,33 +99,3 @@ def test_steps_of_a_varying_beam_are_those_of_a_stepped_one() -> None:
     assert jointed_modes(same, 12).squared_frequencies == pytest.approx(
         jointed_modes(stepped, 12).squared_frequencies, rel=1e-12
     )
-
-
-def test_mirror_images_have_mirrored_shapes_and_are_known_as_such() -> None:
-    assert TAPERED.is_mirror_image_of(TAPERED.reversed)
-    assert not TAPERED.is_mirror_image
-    assert not TAPERED.is_mirror_image_of(BULGED.reversed)
-    # The means of its sections are alike, what varies within them is not.
-    leaning = varying(lambda x: 2.0 + 0.5 * (x % 2.0 - 1.0), np.ones_like, 2.0, 2.0)
-    assert leaning.sections[0] == leaning.sections[1]
-    assert not leaning.is_mirror_image
-    even = varying(lambda x: 2.0 + np.cos(np.pi * x), lambda x: 1.0 + np.abs(x - 1.0), 1.0, 1.0)
-    assert even.is_mirror_image
-    assert beam_shapes(even, 6).parities == (1, -1, 1, -1, 1, -1)
-    x = np.linspace(0.0, 2.0, 11)
-    one, other = beam_shapes(TAPERED, 8), beam_shapes(TAPERED.reversed, 8)
-    for number in range(8):
-        image = one.parities[number] * one.deflections(2.0 - x)[number]
-        # Which of both directions is computed is chosen by the means of the sections, here one alone.
-        assert np.abs(np.abs(other.deflections(x)[number]) - np.abs(image)).max() < 1e-10
-
-
-def test_units_change_nothing() -> None:
-    from hydroelastic.physics.scales import Scales
-
-    scaled = TAPERED.scaled(Scales(length=10.0, density=1000.0, gravity=9.81), 0.3, 0.5)
-    unit = 1000.0 * 9.81 * 10.0**4 / (1000.0 * 10.0) / 10.0**4
-    # ω² has the unit g/L.
-    assert jointed_modes(scaled, 8).squared_frequencies * unit == pytest.approx(
-        jointed_modes(TAPERED, 8).squared_frequencies, rel=1e-11
-    )

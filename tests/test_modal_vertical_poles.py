@@ -42,10 +42,3 @@ def test_the_error_keeps_its_bound_and_never_lifts_the_response(depth: float, wa
 def test_few_poles_are_enough(tolerance: float, most: int) -> None:
     # Numbers of a least-squares fit for H = 3 m in a tank of 10 m, and two more.
     assert len(vertical_poles(0.3, 20.0, tolerance, lowest=2.0).shifts) <= most
-
-
-def test_shallow_water_has_one_pole_that_matters() -> None:
-    poles = vertical_poles(1e-3, 5.0, 1e-6, lowest=1.0)
-    k = np.array([1.0, 5.0])
-    # f − 1/(Hk²) is H/3 for kH → 0.
-    assert poles.values(k) - 1.0 / (1e-3 * k**2) == pytest.approx([1e-3 / 3.0] * 2, rel=1e-4)

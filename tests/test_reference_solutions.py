@@ -21,10 +21,9 @@ from surface_reference import (
     without_waves,
 )
 
+import hydroelastic as he
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.gravity_added_mass import gravity_tones
-from hydroelastic.modal.tank_estimates import floating_beam
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
 
 FOLDER = Path(__file__).parent / "reference"
 OLDER: dict[str, Any] = json.loads((FOLDER / "aquarium.json").read_text(encoding="utf-8"))
@@ -115,9 +114,21 @@ def test_participations_and_kinds_are_those_of_the_older_references() -> None:
 
 def test_tones_are_those_of_the_dense_estimates() -> None:
     """`modal` discretises the same operator by another rule, and the beam by its dry modes."""
-    scene = TankScene.model_validate(COMPUTED["tip_1e-02_from_the_wall"]["scene"])
+    scene = he.TankScene(**COMPUTED["tip_1e-02_from_the_wall"]["scene"])
+    (body,), (liquid,) = scene.body, scene.liquid
+    floating = FloatingBeam(
+        tank_length=scene.tank.length,
+        depth=liquid.depth,
+        density=liquid.density,
+        gravity=scene.tank.gravity,
+        start=body.start,
+        length=body.length,
+        flexural_rigidity=body.flexural_rigidity,
+        mass_per_length=body.mass_per_length,
+        hydrostatic=body.hydrostatic,
+    )
     expected = COMPUTED["tip_1e-02_from_the_wall"]["omega"]
-    tones = gravity_tones(floating_beam(physical_tank(scene)), tuple(range(40)), 4.0 * expected[-1] ** 2)
+    tones = gravity_tones(floating, tuple(range(40)), 4.0 * expected[-1] ** 2)
     # Forty dry modes leave a tail, so that these lie above; measured 4e-11.
     error = np.sqrt(tones.squared_frequencies[: len(expected)]) / expected - 1.0
     assert error.min() >= -1e-11
@@ -179,7 +190,7 @@ def test_references_have_converged(name: str) -> None:
 @pytest.mark.slow_but("full_cover")
 @pytest.mark.parametrize("name", some_slow(COMPUTED, {"full_cover", "tip_at_the_wall"}))
 def test_stored_references_are_made_anew(name: str) -> None:
-    scene = TankScene.model_validate(COMPUTED[name]["scene"])
+    scene = he.TankScene(**COMPUTED[name]["scene"])
     modes = reference_modes(reference_tank(scene), scene.accuracy.modes, replace(Fineness(), degree=18, bending=46))
     omega = np.sqrt(modes.eigenvalues * scene.tank.gravity / scene.tank.length)
     np.testing.assert_allclose(omega, COMPUTED[name]["omega"], rtol=1e-12)

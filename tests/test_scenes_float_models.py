@@ -2,55 +2,22 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
-import numpy as np
 import pytest
 from float_scenes import AIR, OIL, SQUARE, WATER, WEDGE, polygon, said, scene
-from pydantic import ValidationError
-
-from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.models.tank_parts import Liquid
-from hydroelastic.scenes.validation_errors import scene_error
 
 BEAM: dict[str, Any] = {"start": 7.0, "length": 2.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 
 
-def test_defaults_are_those_of_the_contract() -> None:
-    body = scene(WEDGE).body[0]
-    assert isinstance(body, Float)
-    assert (body.motions, body.boundary, body.unstable) == (("heave",), "exact", "refuse")
-    assert (body.at, body.mass, body.centre_of_mass, body.radius_of_gyration) == (None, None, None, None)
-    assert scene(BEAM).body[0].kind == "beam"
-
-
-def test_bodies_float_at_the_interface_unless_it_is_said() -> None:
-    given = scene(WEDGE, BEAM | {"at": "surface"})
-    assert [given.level_of(body) for body in given.body] == ["interface", "surface"]
-    assert [given.height_of(given.level_of(body)) for body in given.body] == [0.0, 1.0]
-    assert [given.densities_at(given.level_of(body)) for body in given.body] == [(1000.0, 800.0), (800.0, 0.0)]
-    alone = scene(WEDGE, liquids=(WATER,))
-    assert alone.level_of(alone.body[0]) == "surface"
-    assert alone.densities_at("surface") == (1000.0, 0.0)
-
-
 def test_air_is_not_modelled() -> None:
     given = scene(WEDGE, liquids=(WATER, AIR), top="rigid")
-    assert given.layers == (Liquid(density=1000.0, depth=2.0),)
+    assert len(given.layers) == 1
     assert (given.top, given.tank.top) == ("free", "rigid")
     assert given.level_of(given.body[0]) == "surface"
     assert given.height_of("surface") == 0.0
     assert scene(WEDGE | {"at": "interface"}, liquids=(WATER, AIR)).level_of(given.body[0]) == "surface"
     assert "nothing floats on top of it" in said(WEDGE | {"at": "surface"}, liquids=(WATER, AIR))
-
-
-def test_scenes_are_hashable_and_go_through_json() -> None:
-    given = scene(WEDGE, polygon(*SQUARE, position=2.0), BEAM)
-    assert hash(given) == hash(scene(WEDGE, polygon(*SQUARE, position=2.0), BEAM))
-    assert TankScene.model_validate(json.loads(json.dumps(given.model_dump(mode="json")))) == given
-    assert TankScene.model_validate(given.model_dump()) == given
 
 
 @pytest.mark.parametrize(
@@ -66,7 +33,7 @@ def test_scenes_are_hashable_and_go_through_json() -> None:
 )
 def test_the_upper_liquid_is_lighter(upper: float, words: str) -> None:
     text = said(liquids=(WATER, {"density": upper, "depth": 1.0}))
-    assert text.startswith('[[liquid]] number 2, key "density" = ')
+    assert '[[liquid]] number 2, key "density" = ' in text
     assert words in text
 
 
@@ -108,32 +75,8 @@ def test_each_depth_fits_the_length(place: int, depth: float) -> None:
 )
 def test_keys_belong_to_their_shape(shape: str, keys: dict[str, Any], words: str) -> None:
     text = said({"kind": "float", "shape": shape, "position": 5.0} | keys)
-    assert text.startswith("[[body]] number 1, key ")
+    assert "[[body]] number 1, key " in text
     assert words in text
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"motions": []}, "too few"),
-        ({"motions": ["heave", "heave"]}, "named twice"),
-        ({"motions": ["have"]}, 'key "motions", entry 1 = "have"'),
-        ({"motions": "heave"}, 'a list of "heave" or "sway" or "roll"'),
-        ({"shape": "rectangle", "boundary": "thin"}, '"exact", or shape = exponential'),
-        ({"boundary": "thick"}, '"exact" or "thin"'),
-        ({"at": "surfce"}, 'Did you mean "surface"?'),
-        ({"start": 3.0}, 'It belongs to kind = "beam"'),
-        ({"kind": "flaot"}, 'key "kind" = "flaot": it is not one of the choices.'),
-        ({"kind": "flaot"}, 'Allowed: "beam" or "varying_beam" or "float". Did you mean "float"?'),
-        ({"kind": 3}, "not one of the choices"),
-        ({"half_width": "1"}, "Write it without quotes"),
-        ({"half_width": 0}, "a positive number from 1e-30"),
-        ({"mass": -1.0}, "a positive number"),
-        ({"tail": float("nan")}, "not a finite number"),
-    ],
-)
-def test_values_of_a_float(change: dict[str, Any], words: str) -> None:
-    assert words in said(WEDGE | change)
 
 
 def test_an_interface_needs_two_liquids() -> None:
@@ -188,19 +131,6 @@ def test_bodies_keep_apart() -> None:
     assert "the beam overlaps or touches" in said(BEAM, BEAM | {"start": 8.0, "length": 1.0})
 
 
-def test_guided_beams_cover_either_level() -> None:
-    cover = BEAM | {"start": 0.0, "length": 10.0, "ends": "guided"}
-    assert scene(cover, cover | {"at": "surface"})
-    assert "wall to wall" in said(BEAM | {"ends": "guided"})
-
-
-def test_groups_of_an_interface_beam_count_the_difference_of_densities() -> None:
-    # 1e15 (ρₗ - ρᵤ) g l⁴ = 1e15·200·9.81·16
-    assert "EI/((ρₗ − ρᵤ) g l⁴)" in said(BEAM | {"flexural_rigidity": 4e19})
-    assert "EI/(ρ g l⁴)" in said(BEAM | {"flexural_rigidity": 2e20}, liquids=(WATER,))
-    assert scene(BEAM | {"flexural_rigidity": 4e19}, liquids=(WATER,))
-
-
 SLENDER = WEDGE | {"half_width": 0.1}
 
 
@@ -240,37 +170,3 @@ def test_meshes_of_ones_own_are_for_one_liquid_with_beams() -> None:
     assert "this scene has a float" in said(WEDGE, liquids=(WATER,), **mesh)
     assert scene(BEAM, liquids=(WATER,), **mesh)
     assert scene(BEAM, liquids=(WATER, AIR), **mesh)
-
-
-@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
-@pytest.mark.parametrize("seed", range(15))
-def test_random_scenes_are_accepted_or_refused_in_words(seed: int, unit: float) -> None:
-    """What validates also floats; sizes, places and polygons at random, in any unit of length."""
-    from hydroelastic.scenes.models.floats import placed_float
-
-    random = np.random.default_rng(seed)
-
-    def length() -> float:
-        return float(unit * 10 ** random.uniform(-2, 0.7))
-
-    for _ in range(10):
-        liquids = [
-            {"density": 1000.0, "depth": length()},
-            {"density": float(random.choice([0, 800])), "depth": length()},
-        ]
-        angles = np.sort(random.uniform(0, 2 * np.pi, random.integers(3, 9)))
-        vertices = (np.column_stack([np.cos(angles), np.sin(angles)]) * random.uniform(0.1, 1, 2) * length()).tolist()
-        motions = [str(name) for name in random.permutation(["heave", "sway", "roll"])[: random.integers(1, 4)]]
-        bodies = [polygon(*map(tuple, vertices), position=float(unit * random.uniform(0, 10)), motions=motions)]
-        refusal = ""
-        try:
-            given = scene(*bodies, liquids=tuple(liquids[: random.integers(1, 3)]), length=10 * unit)
-        except ValidationError as error:
-            refusal = str(scene_error(error, TankScene))
-        if refusal:
-            assert "[[body]] number 1" in refusal
-            continue
-        rest = placed_float(given, 0).hydrostatics
-        displaced = np.dot(given.densities_at(given.level_of(given.body[0])), rest.areas)
-        assert displaced == pytest.approx(rest.mass, rel=1e-12)
-        assert rest.roll_stiffness >= 0 or "roll" not in motions

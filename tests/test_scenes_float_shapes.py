@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 from float_scenes import SQUARE, WEDGE, polygon, said, scene
 
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.read import read_scene
+import hydroelastic as he
 
 
 @pytest.mark.parametrize(
@@ -29,13 +28,6 @@ def test_sections_that_are_no_hull(vertices: tuple[tuple[float, float], ...], wo
     text = said(polygon(*vertices))
     assert '[[body]] number 1, key "vertices"' in text
     assert words in text
-
-
-def test_a_clockwise_polygon_is_turned_round() -> None:
-    from hydroelastic.scenes.models.floats import placed_float
-
-    one, other = (placed_float(scene(polygon(*corners)), 0) for corners in (SQUARE, SQUARE[::-1]))
-    assert one.hydrostatics == other.hydrostatics
 
 
 def test_another_cut_is_a_matter_of_the_mass() -> None:
@@ -109,8 +101,8 @@ def test_outlines_that_cannot_be_used(tmp_path: Path, text: str | None, words: s
     path.write_text(OUTLINE, encoding="utf-8")
     if text is not None:
         (tmp_path / "points.csv").write_text(text, encoding="utf-8")
-    with pytest.raises(SceneError) as caught:
-        read_scene(path)
+    with pytest.raises(he.SceneError) as caught:
+        he.read(path)
     assert '[[body]] number 1, key "file"' in str(caught.value)
     assert words in str(caught.value)
 
@@ -119,7 +111,7 @@ def test_an_outline_lies_beside_its_scene(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(OUTLINE, encoding="utf-8")
     (tmp_path / "points.csv").write_text("-1 -1\n1 -1\n1 1\n-1 1\n", encoding="utf-8")
-    given = read_scene(path, ["body.1.mass=1000.0"])
+    given = he.read(path, ["body.1.mass=1000.0"])
     assert given.folder == tmp_path
     # What is stored of the scene holds on any machine.
     assert given.model_dump(mode="json")["body"][0]["file"] == "points.csv"

@@ -3,8 +3,8 @@
     ./hydro python tests/reference/make_floats.py [NAME ...]
 
 Each tank is solved twice by `float_reference` (tests/), with few and with many trial functions; the finer values are
-stored to the digits that both share, with their distance, and that of `float_boundary_integrals`. With names, only
-these are made anew.
+stored to the digits that both share, with their distance. With names, only these are made anew. How far boundary
+integrals were, a second method, is kept from the first table, of version 0.1.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from float_added_mass import high_frequency_added_mass
-from float_boundary_integrals import second_omega
 from float_reference import reference_modes
 from float_tanks import Fineness, FloatTank, float_tank
 
@@ -40,7 +39,7 @@ HEADER = {
         "omega": "lowest frequencies, rad/s, without those that are zero, to the digits that are certain",
         "self_convergence": "largest relative difference of omega between a coarser and a finer solution",
         "agreement": "largest relative difference of omega from a second method, boundary integrals on the whole "
-        "boundary (tests/support/float_boundary_integrals.py); null where it does not apply",
+        "boundary, when the table was first made; null where it does not apply",
         "floats": "per float, from left to right: mass kg/m, inertia about the centre of mass kg m, centre of mass m "
         "(y = 0 is the still level), ends of the waterplane m, stiffness of heave, sway and roll (anticlockwise)",
         "added_mass": "at the highest frequencies (psi = 0 on a free surface, rho psi continuous at the interface, the "
@@ -129,7 +128,6 @@ SCENES: dict[str, dict[str, Any]] = {
 FINENESS = {
     "two_liquids_1_to_100": (Fineness(waves=150), Fineness(corner=26, waves=220, inner=50, powers=8)),
 }
-PIECES = {"two_liquids_1_to_100": 30}
 USUAL = (Fineness(inner=48), Fineness(corner=26, waves=90, inner=60, powers=8))
 
 
@@ -149,14 +147,6 @@ def matrix_of(coarse: np.ndarray, fine: np.ndarray) -> list[list[str]]:
     ]
 
 
-def agreement(name: str, given: FloatTank, omega: np.ndarray) -> float | None:
-    """How far the second method is; it knows no beams and no slits."""
-    if given.beams or any(part.thin for part, _ in given.sections):
-        return None
-    second = second_omega(given, COUNT, pieces=PIECES.get(name, 8))
-    return float(f"{np.abs(second / omega - 1).max():.1e}")
-
-
 def floats_of(scene_tank: FloatTank) -> list[dict[str, Any]]:
     """What a float is at rest."""
     return [
@@ -171,7 +161,7 @@ def floats_of(scene_tank: FloatTank) -> list[dict[str, Any]]:
     ]
 
 
-def solved(name: str) -> dict[str, Any]:
+def solved(name: str, agreement: float | None) -> dict[str, Any]:
     """The entry of a tank."""
     scene = SCENES[name]
     given = float_tank(scene)
@@ -194,7 +184,7 @@ def solved(name: str) -> dict[str, Any]:
         "floats": floats_of(given),
         "omega": [certain(value, distance) for value, distance in zip(fine.omega, distances, strict=True)],
         "self_convergence": float(f"{distances.max():.1e}"),
-        "agreement": agreement(name, given, fine.omega),
+        "agreement": agreement,
         "modal_masses": rows,
         "motions": motions,
         "added_mass": matrix_of(*loaded) if loaded else None,
@@ -204,9 +194,10 @@ def solved(name: str) -> dict[str, Any]:
 
 def main(names: list[str]) -> None:
     """Write the file, or renew some of its cases."""
-    cases = json.loads(PATH.read_text(encoding="utf-8"))["cases"] if names and PATH.exists() else {}
+    stored = json.loads(PATH.read_text(encoding="utf-8"))["cases"] if PATH.exists() else {}
+    cases = dict(stored) if names else {}
     for name in names or SCENES:
-        cases[name] = solved(name)
+        cases[name] = solved(name, stored.get(name, {}).get("agreement"))
         print(name, cases[name]["self_convergence"], *cases[name]["omega"], flush=True)
         ordered = {name: cases[name] for name in SCENES if name in cases}
         PATH.write_text(json.dumps(HEADER | {"cases": ordered}, indent=1) + "\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What the solver answers to a scene, without its matrices: each scene is solved once, and only numbers are kept."""
+"""What the solver answers to a scene, through the front door: each scene is solved once, and only numbers are kept."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.run import run_tank
-from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
+import hydroelastic as he
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,28 +30,39 @@ class Answer:
     summary: dict[str, Any]
     seconds: float
 
-    def errors(self, reference: list[float]) -> np.ndarray:
+    def errors(self, reference: Any) -> np.ndarray:
         """ω/ω_reference − 1."""
-        return self.omega / np.array(reference) - 1.0
+        return self.omega / np.asarray(reference, dtype=float) - 1.0
 
 
 @functools.cache
-def answer(scene: TankScene) -> Answer:
-    """Solve a scene, once in this process."""
+def answer(scene: he.TankScene) -> Answer:
+    """Solve a scene, once in this process (collective)."""
     start = time.perf_counter()
-    solution = solve_scene(scene)
-    seconds = time.perf_counter() - start
-    summary = run_tank.summarized(scene, EstimatedTank(scene=scene, tank=solution))
+    summary = he.solve(scene).summary
     return Answer(
         omega=np.array([mode["omega"] for mode in summary["modes"]]),
         estimates=np.array([mode["relative_error"] for mode in summary["modes"]]),
-        reasons=solution.reasons,
+        reasons=tuple(summary["reasons"]),
         summary=summary,
-        seconds=seconds,
+        seconds=time.perf_counter() - start,
     )
 
 
-def zero_modes(scene: TankScene) -> int:
+def kept(scene: he.TankScene) -> Answer:
+    """The answer to a scene whose tolerance is kept."""
+    found = answer(scene)
+    assert found.reasons == ()
+    assert len(found.omega) == scene.accuracy.modes
+    return found
+
+
+def assert_alike(one: Answer, other: Answer, factor: float = 1.0) -> None:
+    """Frequencies that differ by a factor, within both estimates."""
+    assert np.all(np.abs(factor * one.omega / other.omega - 1.0) <= one.estimates + other.estimates)
+
+
+def zero_modes(scene: he.TankScene) -> int:
     """Motions with λ = 0: heave and pitch of each beam without restoring, but one that the volume holds back."""
     free = 2 * sum(not beam.hydrostatic for beam in scene.body)
     return free - 1 if free and scene.tank.top != "pressure_release" else free

@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from pydantic import ValidationError
 
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.validation_errors import scene_error
+import hydroelastic as he
 
 WEDGE: dict[str, Any] = {"kind": "float", "shape": "wedge", "position": 5.0, "half_width": 0.5, "half_height": 0.4}
 BARGE: dict[str, Any] = {
@@ -24,16 +22,22 @@ WATER, OIL, AIR = ({"density": density, "depth": depth} for density, depth in ((
 SQUARE = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
 
 
-def scene(*bodies: dict[str, Any], liquids: tuple[dict[str, Any], ...] = (WATER, OIL), **more: Any) -> TankScene:
+def document(*bodies: dict[str, Any], liquids: tuple[dict[str, Any], ...] = (WATER, OIL), **more: Any) -> Any:
+    """The keys of a scene."""
     tank = {"length": 10.0} | {key: more.pop(key) for key in ("top", "length") if key in more}
-    return TankScene.model_validate({"tank": tank, "liquid": list(liquids), "body": list(bodies)} | more)
+    return {"kind": "tank", "tank": tank, "liquid": list(liquids), "body": list(bodies)} | more
+
+
+def scene(*bodies: dict[str, Any], **changes: Any) -> he.TankScene:
+    """A scene that is accepted."""
+    return he.read(document(*bodies, **changes))
 
 
 def said(*bodies: dict[str, Any], **changes: Any) -> str:
     """What is said of a scene that is refused for one reason."""
-    with pytest.raises(ValidationError) as caught:
-        scene(*bodies, **changes)
-    text = str(scene_error(caught.value, TankScene))
+    with pytest.raises(he.SceneError) as caught:
+        he.read(document(*bodies, **changes))
+    text = str(caught.value)
     assert "\n" not in text
     return text
 

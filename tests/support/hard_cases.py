@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
+import hydroelastic as he
 
 TOLERANCES = (1e-4, 1e-6, 1e-8)
 """What is asked of each case."""
@@ -37,21 +37,21 @@ class HardCase:
     name: str
     hard: str
     protects: str
-    scene: TankScene
+    scene: he.TankScene
     fast: tuple[float, ...] = (1e-6,)
     may_refuse: tuple[float, ...] = ()
     hidden_tone: tuple[float, ...] = ()
     tone_within: int = 0
 
-    def asked(self, tolerance: float) -> TankScene:
+    def asked(self, tolerance: float) -> he.TankScene:
         """The scene with a tolerance."""
-        accuracy = Accuracy(tolerance=tolerance, modes=self.scene.accuracy.modes)
+        accuracy = he.Accuracy(tolerance=tolerance, modes=self.scene.accuracy.modes)
         return self.scene.model_copy(update={"accuracy": accuracy})
 
 
 def beam(
     start: float = 3.0, length: float = 4.0, *, rigidity: float = 2e-3, mass: float = 0.0125, **changes: Any
-) -> Beam:
+) -> he.Beam:
     """A beam by its groups EI' and m', in the liquid of the base tank."""
     given = {
         "start": start,
@@ -60,16 +60,16 @@ def beam(
         "mass_per_length": mass * DENSITY * length,
         "hydrostatic": True,
     }
-    return Beam(**(given | changes))
+    return he.Beam(**(given | changes))
 
 
-def tank(*beams: Beam, modes: int = 8, length: float = LENGTH, depth: float = DEPTH, **changes: Any) -> TankScene:
+def tank(*beams: he.Beam, modes: int = 8, length: float = LENGTH, depth: float = DEPTH, **changes: Any) -> he.TankScene:
     """A tank of the base liquid with beams."""
-    return TankScene(
-        tank=Tank(**({"length": length, "gravity": GRAVITY} | changes)),
-        liquid=(Liquid(density=DENSITY, depth=depth),),
+    return he.TankScene(
+        tank=he.Tank(**({"length": length, "gravity": GRAVITY} | changes)),
+        liquid=(he.Liquid(density=DENSITY, depth=depth),),
         body=beams,
-        accuracy=Accuracy(tolerance=1e-6, modes=modes),
+        accuracy=he.Accuracy(tolerance=1e-6, modes=modes),
     )
 
 

@@ -7,9 +7,8 @@ from math import exp, log
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
-from hydroelastic.scenes.models.tank import TankScene
+import hydroelastic as he
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 LENGTH = (0.3, 100.0)
@@ -28,7 +27,7 @@ ALL_SHAPES = (*SMOOTH_OR_CORNERED, "exponential")
 MOTIONS = ("heave", "sway", "roll")
 
 
-def draw_floats(seed: int, count: int, *, wide: bool = False) -> list[TankScene]:
+def draw_floats(seed: int, count: int, *, wide: bool = False) -> list[he.TankScene]:
     """Tanks with one float or two, perhaps beside a beam, each with a tolerance and a number of modes of its own.
 
     Args:
@@ -38,11 +37,11 @@ def draw_floats(seed: int, count: int, *, wide: bool = False) -> list[TankScene]
             no exponential ones, none that would turn over or that floats on the upper liquid, no ψ = 0 at the top.
     """
     random = np.random.default_rng(seed)
-    scenes: list[TankScene] = []
+    scenes: list[he.TankScene] = []
     while len(scenes) < count:
         try:
-            scenes.append(TankScene.model_validate(_draw(random, wide=wide)))
-        except ValidationError:
+            scenes.append(he.TankScene(**_draw(random, wide=wide)))
+        except he.SceneError:
             # It sinks, capsizes, or has no room: the next one.
             continue
     return scenes

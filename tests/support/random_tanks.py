@@ -7,7 +7,7 @@ from math import exp, log
 import numpy as np
 from hard_cases import TOLERANCES
 
-from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
+import hydroelastic as he
 
 TANK_TO_BEAM = (1.02, 30.0)
 DEPTH_TO_LENGTH = (0.003, 10.0)
@@ -18,7 +18,7 @@ TWO_BEAMS, MIRROR_IMAGES, AT_A_WALL = 0.3, 0.5, 0.25
 """Parts of the tanks with two beams, of those that are their own mirror image, and of the rest that begin at a wall."""
 
 
-def draw_tanks(seed: int, count: int) -> list[TankScene]:
+def draw_tanks(seed: int, count: int) -> list[he.TankScene]:
     """Tanks of unit length, density and gravity, each with a tolerance and a number of modes of its own.
 
     Args:
@@ -29,15 +29,15 @@ def draw_tanks(seed: int, count: int) -> list[TankScene]:
     return [_draw(random) for _ in range(count)]
 
 
-def _draw(random: np.random.Generator) -> TankScene:
+def _draw(random: np.random.Generator) -> he.TankScene:
     depth = _between(random, DEPTH_TO_LENGTH)
     mirror = random.random() < MIRROR_IMAGES
     beams = _two(random, mirror) if random.random() < TWO_BEAMS else (_one(random, mirror),)
-    return TankScene(
-        tank=Tank(length=1.0, gravity=1.0),
-        liquid=(Liquid(density=1.0, depth=depth),),
+    return he.TankScene(
+        tank=he.Tank(length=1.0, gravity=1.0),
+        liquid=(he.Liquid(density=1.0, depth=depth),),
         body=beams,
-        accuracy=Accuracy(
+        accuracy=he.Accuracy(
             tolerance=float(random.choice(TOLERANCES)), modes=int(random.integers(1, MOST_MODES, endpoint=True))
         ),
     )
@@ -48,8 +48,8 @@ def _between(random: np.random.Generator, bounds: tuple[float, float]) -> float:
     return exp(random.uniform(log(bounds[0]), log(bounds[1])))
 
 
-def _beam(random: np.random.Generator, start: float, length: float) -> Beam:
-    return Beam(
+def _beam(random: np.random.Generator, start: float, length: float) -> he.Beam:
+    return he.Beam(
         start=start,
         length=length,
         flexural_rigidity=_between(random, RIGIDITY) * length**4,
@@ -58,7 +58,7 @@ def _beam(random: np.random.Generator, start: float, length: float) -> Beam:
     )
 
 
-def _one(random: np.random.Generator, mirror: bool) -> Beam:
+def _one(random: np.random.Generator, mirror: bool) -> he.Beam:
     length = 1.0 / _between(random, TANK_TO_BEAM)
     if mirror:
         return _beam(random, 0.5 * (1.0 - length), length)
@@ -67,7 +67,7 @@ def _one(random: np.random.Generator, mirror: bool) -> Beam:
     return _beam(random, random.uniform(0.0, 1.0 - length), length)
 
 
-def _two(random: np.random.Generator, mirror: bool) -> tuple[Beam, Beam]:
+def _two(random: np.random.Generator, mirror: bool) -> tuple[he.Beam, he.Beam]:
     if mirror:
         length = 0.5 / _between(random, TANK_TO_BEAM)
         start = random.uniform(0.0, 0.99) * (0.5 - length)

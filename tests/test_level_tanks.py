@@ -48,10 +48,15 @@ def test_frequencies_keep_the_tolerance_and_its_estimate(name: str) -> None:
 
 
 @pytest.mark.slow_but("disc_heavy_s1-1e-10", "strip_shallow-1e-10")
-@pytest.mark.parametrize(("names", "tolerance"), [(name, 1e-10) for name in ORDERS] + [(one, 1e-8) for one in RECTANGLES])
+@pytest.mark.parametrize(
+    ("names", "tolerance"), [(name, 1e-10) for name in ORDERS] + [(one, 1e-8) for one in RECTANGLES]
+)
 def test_frequencies_keep_a_narrow_tolerance(names: str, tolerance: float) -> None:
     exact = CASES[names]["omega"] if names in ORDERS else reference(names)[:12]
-    errors = of_case(names, tolerance).modes.omega / exact - 1.0
+    result = he.solve(reference_tank(names) | {"accuracy": {"tolerance": tolerance, "modes": 12}})
+    # The tone of a plate alone may have fewer digits, and says so.
+    assert all("pressure-release tone" in reason for reason in result.summary["reasons"])
+    errors = result.modes.omega / exact - 1.0
     # Orders measured 6e-12, below the digits of the references of discs; rectangles come from above.
     assert errors.max() < (5e-11 if names in ORDERS else tolerance)
     assert errors.min() > -max(5e-11, 10.0 ** -CASES[names]["digits"])
@@ -102,10 +107,9 @@ def test_a_heavy_rigid_cover_tilts_and_does_not_heave() -> None:
     assert len(solved(tank({"length": 2.0, "width": 1.0}, 1.0, cover), 1e-3, 3).modes) == 2
 
 
-@pytest.mark.parametrize("mass", [0.0, 2.0])
-def test_a_rigid_disc_on_deep_wide_water_has_the_added_mass_of_lamb(mass: float) -> None:
+def test_a_rigid_disc_on_deep_wide_water_has_the_added_mass_of_lamb() -> None:
     """Heave 4/3 ρa³ and pitch 8/45 ρa⁵ with ψ = 0 beside the disc; stiffness ρgπa² and ρgπa⁴/4."""
-    a, density, g = 0.02, 1000.0, 9.81
+    a, mass, density, g = 0.02, 2.0, 1000.0, 9.81
     disc = plate("disc", inf, mass, radius=a)
     modes = solved(tank({"radius": 1.0, "top": "pressure_release"}, 1.0, disc), 1e-5, 2).modes
     heave = density * g * pi * a**2 / (mass * pi * a**2 + density * 4.0 / 3.0 * a**3)
@@ -269,9 +273,8 @@ def test_pressure_release_tones_are_limits_of_thin_layers() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("hydrostatic", "round_"), [(False, False), pytest.param(True, False, marks=pytest.mark.slow), (True, True)]
-)
+@pytest.mark.slow_but("False-True")
+@pytest.mark.parametrize(("hydrostatic", "round_"), [(False, False), (True, False), (False, True), (True, True)])
 def test_modes_with_a_released_surface_are_those_of_orders(*, hydrostatic: bool, round_: bool) -> None:
     if round_:
         plan: dict[str, Any] = {"radius": 5.0}
@@ -288,14 +291,12 @@ def test_modes_with_a_released_surface_are_those_of_orders(*, hydrostatic: bool,
     # Measured: 1e-5 to 5e-5.
     assert np.all(errors < result.modes.relative_error)
     assert result.modes.relative_error.max() < 1e-3
-    assert result.summary["zero_modes"] == (0 if hydrostatic else 4)
+    assert result.summary["zero_modes"] == (0 if hydrostatic else 3 if round_ else 4)
 
 
 def test_a_beam_in_a_box_is_a_cover_of_slats() -> None:
     """The tone is that of order 0, the beam of a tank per metre of width."""
-    result = he.solve(
-        he.read("aquarium", {"tank.width": 4.0, "accuracy.modes": 2, "accuracy.tolerance": 1e-4})
-    )
+    result = he.solve(he.read("aquarium", {"tank.width": 4.0, "accuracy.modes": 2, "accuracy.tolerance": 1e-4}))
     # The shipped result of aquarium; 1e-4 is asked for.
     assert result.summary["modes"][0]["omega"] == pytest.approx(1.64970432, rel=1e-4)
     assert result.summary["first_elastic"]["omega"] == pytest.approx(4.23052401, rel=1e-4)
@@ -319,7 +320,7 @@ def test_an_ice_sheet_in_a_triangle_has_double_tones() -> None:
     assert 0.99 < modes.omega[0] / reference("slosh_triangle")[0] < 1.0
 
 
-@pytest.mark.slow_but("0.001")
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 def test_a_plate_with_a_reentrant_corner_keeps_its_tolerance(tolerance: float) -> None:
     """ω at a tolerance of 1e-7."""
@@ -343,10 +344,11 @@ def test_a_plate_a_millimetre_from_a_wall_keeps_its_tolerance() -> None:
 
 
 def test_a_study_asks_each_model_for_tolerances() -> None:
-    study = he.study(he.read("rectangular_cover", {"accuracy.modes": 3}), tolerances=[1e-2, 1e-3])
+    study = he.study(he.read("rectangular_cover", {"accuracy.modes": 3}), tolerances=[1e-2])
     rows = study.measured.rows
     assert [(row.model, row.tolerance) for row in rows] == [
-        (model, tolerance) for model in ("box", "plan") for tolerance in (1e-2, 1e-3)
+        ("box", 1e-2),
+        ("plan", 1e-2),
     ]
     for row in rows:
         assert max(map(abs, row.errors)) <= row.estimate <= row.tolerance

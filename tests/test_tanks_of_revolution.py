@@ -97,9 +97,7 @@ def test_a_floating_cylinder_in_a_round_tank(name: str) -> None:
 
 @pytest.mark.slow_but("float_cylinder_shallow_draught-0.003")
 @pytest.mark.mpi
-@pytest.mark.parametrize(
-    ("name", "tolerance"), [(FLOATING[1], 3e-3), (FLOATING[1], 1e-4), (FLOATING[0], 1e-3)]
-)
+@pytest.mark.parametrize(("name", "tolerance"), [(FLOATING[1], 3e-3), (FLOATING[1], 1e-4), (FLOATING[0], 1e-3)])
 def test_a_floating_cylinder_in_tetrahedra(name: str, tolerance: float) -> None:
     given = CASES[name]["inputs"]
     radius = sqrt(given["a"] ** 2 / 4.0 + given["T"] ** 2 / 12.0)
@@ -239,5 +237,3 @@ def test_plates_that_are_refused(number: int, change: dict[str, Any], said: str)
     bodies = [body | (change if index == number else {}) for index, body in enumerate(TWO_PLATES)]
     with pytest.raises(he.SceneError, match=said):
         solved(revolved(10.0, 10.0, *bodies, **DISHED), 1e-4, 3)
-
-

@@ -56,6 +56,7 @@ def test_frequencies_of_level_beds_keep_the_tolerance_and_its_estimate(name: str
     assert result.modes.relative_error.max() <= 10.0 * errors.max()
 
 
+@pytest.mark.slow
 def test_a_plate_that_follows_the_water_reaches_1e_6_in_one_cheap_attempt() -> None:
     """Its edges are a hundred times less singular than those of a plate without hydrostatic restoring."""
     document = reference_tank("rectangle_base_s0")
@@ -171,6 +172,7 @@ def test_a_column_on_the_axis_makes_a_ring() -> None:
     assert abs(sqrt(G * k * np.tanh(2.0 * k)) / ring[0] - 1.0) > 1e-2
 
 
+@pytest.mark.slow_but("places1")
 @pytest.mark.parametrize("places", [[(0.7, 0.0808)], [(0.4, 0.35), (0.5608, 0.35)]])
 def test_a_column_may_nearly_touch_a_wall_or_another_one(places: list[tuple[float, float]]) -> None:
     """A gap of a hundredth of the radius; without cells of its own size curved cells are inverted in it."""
@@ -269,7 +271,7 @@ def test_mass_and_draught_follow_from_one_another() -> None:
 def test_moments_of_inertia_are_those_of_their_radii() -> None:
     mass = 1000.0 * pi * 0.5
     given = [{"inertia": [mass * radius**2 for radius in (0.4, 0.5, 0.6)]}, {"radii_of_gyration": [0.4, 0.5, 0.6]}]
-    found = [solved(tank(BOX, 2.0, CYLINDER | {"mass": mass} | one), 3e-2, 4).modes.omega for one in given]
+    found = [solved(tank(BOX, 2.0, CYLINDER | {"mass": mass} | one), 0.1, 4).modes.omega for one in given]
     assert found[0] == pytest.approx(found[1], rel=1e-9)
 
 
@@ -468,6 +470,24 @@ def test_a_box_of_a_file_has_the_modes_of_the_box(name: str, tmp_path: Path) -> 
 
 
 @pytest.mark.slow
+def test_a_turned_box_has_the_modes_of_the_box(tmp_path: Path) -> None:
+    """In a round tank nothing tells them apart; the product of inertia of the waterplane couples roll and pitch."""
+    own = {"vertical_centre_of_gravity": -0.05, "radii_of_gyration": [0.6, 0.6, 0.8], "position": [0.0, 0.0]}
+    along, across, depth = SIZE
+    turn = radians(25.0)
+    corners = np.array(
+        [[x, y, z] for z in (-depth, depth) for x, y in product((-along / 2, along / 2), (-across / 2, across / 2))]
+    )
+    corners[:, :2] = corners[:, :2] @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = np.array([corners[[side[0], side[i], side[i + 1]]] for side in sides for i in (1, 2)])
+    of_file = body("hull", file=str(written(tmp_path / "turned.stl", triangles)), draught=depth, **own)
+    shaped = body("box", size=[along, across], draught=depth, **own)
+    one, other = (solved(tank({"radius": 3.0}, 2.0, float_), 1e-2, 8).modes for float_ in (shaped, of_file))
+    assert np.all(np.abs(one.omega / other.omega - 1.0) < one.relative_error + other.relative_error)
+
+
+@pytest.mark.slow
 def test_a_hull_of_triangles_converges_to_the_solid(tmp_path: Path) -> None:
     """The frequencies of an ellipsoid by its triangles, against those of the same hull from CAD."""
     exact = solved(tank(BOX, 2.5, hull(ellipsoid_solid(tmp_path / "hull.step"))), 3e-3, 8).modes.omega
@@ -496,7 +516,7 @@ def test_a_revolved_rectangle_is_a_cylinder() -> None:
 def test_files_hold_the_shapes_of_modes_on_their_mesh(tmp_path: Path) -> None:
     """Of a sloping bed in a volume, and both modes of a pair of a disc: gη = ω²ψ on the water."""
     sloping = tank(BOX | {"bed": {"slope": [0.2, 0.0]}}, 3.0)
-    result = solved(sloping, 1e-3, 2)
+    result = solved(sloping, 1e-2, 2)
     result.save(tmp_path / "basin", images=None)
     surface, volume = (pyvista.read(tmp_path / "basin" / "fields" / f"{name}.vtu") for name in ("surface", "volume"))
     # Both halves beside the plane of symmetry y = 3, and the bed from 4 m to 2 m.
@@ -509,7 +529,7 @@ def test_files_hold_the_shapes_of_modes_on_their_mesh(tmp_path: Path) -> None:
     assert eta[0] == pytest.approx(-eta[1], rel=1e-9)
     psi = volume.point_data["potential_002"][np.argmin(np.linalg.norm(volume.points, axis=1))]
     assert G * eta[0] == pytest.approx(result.modes.omega[1] ** 2 * psi, rel=1e-9)
-    disc = solved(reference_tank("disc_base_s0"), 1e-6, 3)
+    disc = solved(reference_tank("disc_base_s0"), 1e-5, 3)
     disc.save(tmp_path / "disc", images=None)
     surface, volume = (pyvista.read(tmp_path / "disc" / "fields" / f"{name}.vtu") for name in ("surface", "volume"))
     shapes = ("001", "002_cos", "002_sin", "003_cos", "003_sin")

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from volume_tanks import rectangle_in_a_box
 
-from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.mode_set import Mode
-from hydroelastic.fem.modes import as_made, solve_modes
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import ClassModes, solve_classes
 from hydroelastic.fem.refined_modes import refined_modes, residual_bounds
@@ -51,7 +50,7 @@ def found(model: VolumeModel, count: int, tolerance: float) -> tuple[ClassModes,
     """The lowest modes from those of the coarser space, and from one start in each class, and the solutions of the
     first."""
     pencils = model.pencils(SOLVER)
-    modes = volume_modes(model, pencils, count, tolerance, solver_of=SOLVER, products=as_made)
+    modes = volume_modes(model, pencils, count, tolerance, solver_of=SOLVER)
     for number in range(count):
         assert modes.completed(number).residual < 0.02
     made = sum(one.pencil.solver.solves for one in modes.classes)
@@ -101,28 +100,6 @@ def test_potentials_are_combinations_of_those_of_products() -> None:
         difference.axpy(-sign, expected.potential)
         # The residual of exact modes, 1e-10, enters at first order.
         assert difference.norm() < 1e-7 * expected.potential.norm()
-
-
-def test_a_product_that_was_read_has_no_potential_and_shapes_are_solved_for() -> None:
-    pencil = model_of("plate").pencil((0, 0), SOLVER)
-    assert pencil is not None
-    exact = solve_modes(pencil, 2, tolerance=1e-10)
-
-    class Read:
-        """Products without potentials."""
-
-        def __init__(self, _operator: object) -> None:
-            self.kinetics = CondensedKinetics(pencil)
-
-        def mult(self, *arguments: object) -> None:
-            self.kinetics.mult(*arguments)  # type: ignore[arg-type]
-
-    modes = refined_modes(pencil, list(exact.eigenvectors), 1e-6, Read)
-    before = pencil.solver.solves
-    difference = modes.completed(1).potential.copy()
-    assert pencil.solver.solves == before + 1
-    difference.axpy(-np.sign(difference.dot(exact.modes[1].potential)), exact.modes[1].potential)
-    assert difference.norm() < 1e-7 * exact.modes[1].potential.norm()
 
 
 @pytest.mark.mpi

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, Operator
+from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.dense_modes import FEW, DenseModes, DenseSolution, dense_potentials
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.liquid_answer import LiquidAnswer
@@ -25,20 +24,11 @@ if TYPE_CHECKING:
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
-
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
 # Neighbouring modes whose ψ is computed together where the answer of the liquid is known.
 _AT_ONCE = 12
-
-Products = Callable[[Operator], Operator]
-"""Makes an operator with the same products of another one, which it keeps or counts, say."""
-
-
-def as_made(operator: Operator) -> Operator:
-    """Return the operator itself."""
-    return operator
 
 
 def solve_modes(
@@ -47,7 +37,6 @@ def solve_modes(
     *,
     shapes: int | None = None,
     tolerance: float = 1e-12,
-    products: Products = as_made,
 ) -> ModeSet:
     """Lowest modes of the coupled problem.
 
@@ -60,7 +49,6 @@ def solve_modes(
         count: number of modes; fewer are returned if the model has fewer, or the highest are lost in rounding.
         shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
-        products: of the operator, which may be read instead of made; see `fem.checkpoint`.
 
     Returns:
         The modes (collective).
@@ -78,7 +66,7 @@ def solve_modes(
     before = pencil.solver.solves
     if count == 0:
         return _no_modes(pencil, kinetics, tolerance)
-    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
+    solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
     converged, inverses = converged_inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     count = _visible(inverses)
@@ -282,13 +270,12 @@ def krylov_schur(
     count: int,
     tolerance: float,
     which: SLEPc.EPS.Which,
-    products: Products = as_made,
 ) -> SLEPc.EPS:
     """Return a solver of M_c ζ = μ K ζ that was not started (collective)."""
     from slepc4py import SLEPc
 
     stable = len(pencil.unstable) == 0
-    context = products(kinetics if stable else _Turned(kinetics))
+    context = kinetics if stable else _Turned(kinetics)
     operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
     operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)

@@ -14,10 +14,10 @@ from itertools import product
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, Operator
+from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.mode_set import Mode, ModeSet
-from hydroelastic.fem.modes import Products, as_made, completed_mode
+from hydroelastic.fem.modes import completed_mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report
@@ -36,7 +36,6 @@ class _Basis:
 
     pencil: CoupledPencil
     kinetics: CondensedKinetics
-    operator: Operator
     solver: PETSc.KSP
     vectors: list[PETSc.Vec] = field(default_factory=list)
     forces: list[PETSc.Vec] = field(default_factory=list)
@@ -56,8 +55,8 @@ class _Basis:
         vector.scale(1.0 / rest)
         force.scale(1.0 / rest)
         image, kept = force.duplicate(), len(self.kinetics.potentials)
-        self.operator.mult(None, vector, image)
-        # A product that was read has no ψ.
+        self.kinetics.mult(None, vector, image)
+        # A known answer of the liquid gives products without ψ.
         self.potentials.append(self.kinetics.potentials[-1] if len(self.kinetics.potentials) > kept else None)
         self.vectors.append(vector)
         self.forces.append(force)
@@ -98,7 +97,6 @@ def refined_modes(
     pencil: CoupledPencil,
     approximate: list[PETSc.Vec],
     residual: float,
-    products: Products = as_made,
     *,
     beyond: bool = False,
     report: Report = lambda _message: None,
@@ -109,7 +107,6 @@ def refined_modes(
         pencil: the coupled problem, of bodies without growing motions.
         approximate: displacements near those of the modes.
         residual: relative residual, in the norm of K, at which a mode counts as converged.
-        products: of the operator; see `fem.modes.solve_modes`.
         beyond: whether the highest mode only shows what is beyond the others, with fewer digits.
         report: receives messages on the progress.
 
@@ -118,7 +115,7 @@ def refined_modes(
     """
     before, count = pencil.solver.solves, len(approximate)
     kinetics = CondensedKinetics(pencil, keeps=True)
-    basis = _Basis(pencil, kinetics, products(kinetics), direct_solver(kinetics.definite_stiffness))
+    basis = _Basis(pencil, kinetics, direct_solver(kinetics.definite_stiffness))
     limits = np.full(count, residual)
     if beyond:
         limits[-1] = max(residual, min(_OF_BEYOND * residual, _MOST_OF_BEYOND))

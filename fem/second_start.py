@@ -6,7 +6,7 @@ import numpy as np
 
 from hydroelastic.fem.added_mass import CondensedKinetics
 from hydroelastic.fem.mode_set import ModeSet
-from hydroelastic.fem.modes import Products, as_made, converged_inverses, krylov_schur
+from hydroelastic.fem.modes import converged_inverses, krylov_schur
 from hydroelastic.fem.pencil import CoupledPencil
 
 # Of the Krylov space, and the part of it that is kept: it grows by a product or two at a time, so that none is in vain.
@@ -15,7 +15,7 @@ _VECTORS, _KEPT = 8, 0.9
 _SEED = 2
 
 
-def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, products: Products = as_made) -> float:
+def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> float:
     """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
 
     A mode that was missed, one of two with the same frequency say, has a part in a random vector.
@@ -24,7 +24,6 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, produ
         pencil: the coupled problem, of bodies without growing motions.
         modes: its lowest modes.
         tolerance: relative residual that is accepted.
-        products: of the operator; see `solve_modes`.
 
     Raises:
         EigenSolverError: if SLEPc stops before it has converged.
@@ -35,7 +34,7 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float, produ
     found = len(modes.eigenvectors)
     if found >= pencil.size - len(pencil.constraints) - pencil.zero_mode_count:
         return np.inf
-    solver = krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL, products)
+    solver = krylov_schur(pencil, kinetics, 1, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
     solver.setDimensions(1, min(_VECTORS, pencil.size))
     solver.setKrylovSchurRestart(_KEPT)
     solver.setDeflationSpace(list(modes.eigenvectors))

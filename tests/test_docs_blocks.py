@@ -78,9 +78,9 @@ NOT_RUN = {
 # Run by a test of its own, which compares what it gives with what the page shows.
 ELSEWHERE = {
     "./hydro run aquarium": "tests/test_scenes_run.py",
-    "./hydro run aquarium --set tank.width=4": "tests/test_scenes_level_tanks.py",
-    "./hydro run floating_roof": "tests/test_scenes_level_tanks.py",
-    "./hydro run floating_roof --set body.1.thickness=0.05": "tests/test_scenes_level_tanks.py",
+    "./hydro run aquarium --set tank.width=4": "tests/test_level_tanks.py",
+    "./hydro run floating_roof": "tests/test_level_tanks.py",
+    "./hydro run floating_roof --set body.1.thickness=0.05": "tests/test_level_tanks.py",
     "./hydro python docs/scene_reference.py": "tests/test_docs_reference.py",
     "./hydro python docs/tutorial_mesh_study.py": "tests/test_docs_tutorial.py",
     "./hydro python results/page_tables.py": "tests/test_results_benchmarks.py",

@@ -1,18 +1,29 @@
-"""Series of meshes: halving cuts every triangle into four alike, drawing makes algebraic rings of the same ones."""
+"""Series of meshes, halved and drawn to rings, and frames of cells around a basin: what they fill, and with what."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections import Counter
+from typing import Any
 
 import numpy as np
 import pytest
 
-from hydroelastic.meshes.geometry import tank_geometry
+from hydroelastic.meshes.geometry import (
+    BOTTOM,
+    FAR_END,
+    FREE_SURFACE,
+    LEFT_WALL,
+    LIQUID,
+    RIGHT_WALL,
+    tank_geometry,
+)
 from hydroelastic.meshes.nested import NestedMeshes, halved, outline_meshes, rectangle_meshes
+from hydroelastic.meshes.open_sea import CellLayers, extended, with_far_ends
 from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Region
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 WATER = "free_surface"
+
 PIECES = {
     "beam": ((0.0, 0.3, WATER), (0.3, 0.7, "body_1"), (0.7, 1.0, WATER)),
     "at the wall": ((0.0, 0.4, "body_1"), (0.4, 1.0, WATER)),
@@ -99,12 +110,6 @@ def test_drawing_turns_no_triangle_and_moves_nothing_else(name: str, exponent: f
     assert moved.sum() == sum(sum(sectors(graded) * i + 1 for i in range(1, 8)) for graded in series.graded_points)
 
 
-def test_a_tank_without_tips_has_nothing_to_draw() -> None:
-    series = series_of("no beam")
-    assert np.array_equal(series.mesh(2).points, series.mesh(2, ()).points)
-    assert series.innermost_ring(8, ()) == np.inf
-
-
 def slit_in_two_liquids() -> Outline:
     """A slit through the middle of an interface at y = 0, which is cut open as well, in a unit square."""
     corners = ((0.0, -0.5), (0.5, -0.5), (1.0, -0.5), (1.0, 0.0), (1.0, 0.5), (0.5, 0.5), (0.0, 0.5), (0.0, 0.0))
@@ -168,8 +173,79 @@ def test_every_corner_has_its_own_exponent_on_all_its_sides() -> None:
                 assert rings == pytest.approx(graded.outer * (np.arange(1, 5) / 4.0) ** exponent, rel=1e-8)
 
 
-def test_a_corner_that_is_no_node_is_refused() -> None:
-    series = outline_meshes(slit_in_two_liquids(), bulk_size=0.125)
-    elsewhere = GradedPoint(point=(0.2, 0.2), inner=np.inf, outer=0.1)
-    with pytest.raises(MeshError, match=r"no triangle .* \(0.2, 0.2\)"):
-        replace(series, graded_points=(elsewhere,)).mesh(1, (2.0,))
+def area(mesh: TaggedMesh, name: str) -> float:
+    return float(np.abs(areas(mesh)[mesh.cell_tags == mesh.cell_names[name]]).sum())
+
+
+def facets(mesh: TaggedMesh, name: str) -> np.ndarray:
+    """End points, shape (facets, 2, 2)."""
+    return mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[name]]]
+
+
+def length(mesh: TaggedMesh, name: str) -> float:
+    ends = facets(mesh, name)
+    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+
+
+def check(mesh: TaggedMesh) -> None:
+    """Cells are not inverted, meet at whole edges, and every edge with one cell alone has one name."""
+    signs = np.sign(areas(mesh))
+    assert np.all(signs == signs[0])
+    edges = Counter(
+        (min(cell[i], cell[i - 1]), max(cell[i], cell[i - 1])) for cell in mesh.cells.tolist() for i in range(3)
+    )
+    assert set(edges.values()) <= {1, 2}
+    rim = {edge for edge, count in edges.items() if count == 1}
+    named = Counter((min(pair), max(pair)) for pair in mesh.facets.tolist())
+    assert set(named.values()) == {1}
+    assert set(named) == rim
+    assert np.unique(mesh.cells).size == len(mesh.points)
+
+
+def square() -> TaggedMesh:
+    """Two triangles in 0 < x < 1, −1 < y < 0."""
+    names = {LEFT_WALL: 1, RIGHT_WALL: 2, BOTTOM: 3, FREE_SURFACE: 4}
+    return TaggedMesh(
+        points=np.array([[0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.0, 0.0]]),
+        cells=np.array([[0, 2, 1], [0, 3, 2]]),
+        cell_tags=np.array([7, 7], dtype=np.int32),
+        facets=np.array([[0, 3], [1, 2], [0, 1], [2, 3]]),
+        facet_tags=np.array([1, 2, 3, 4], dtype=np.int32),
+        cell_names={LIQUID: 7},
+        facet_names=names,
+    )
+
+
+def layers(sideways: Any, below: Any = 0.0, above: Any = 0.0) -> CellLayers:
+    sideways = np.array(sideways, dtype=float)
+    below, above = (np.broadcast_to(np.array(part, dtype=float), sideways.shape) for part in (below, above))
+    return CellLayers(sideways=sideways, below=below, above=above)
+
+
+def test_square_sideways() -> None:
+    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL), layers([1.0, 3.0]))
+    check(mesh)
+    assert area(mesh, LIQUID) == pytest.approx(7.0, rel=1e-14)
+    assert length(mesh, BOTTOM) == length(mesh, FREE_SURFACE) == pytest.approx(7.0, rel=1e-14)
+    np.testing.assert_allclose(facets(mesh, LEFT_WALL)[..., 0], -3.0)
+    np.testing.assert_allclose(facets(mesh, RIGHT_WALL)[..., 0], 4.0)
+    # Two cells of the basin come first, as they were; then two in each frame on each side.
+    np.testing.assert_array_equal(mesh.points[:4], square().points)
+    np.testing.assert_array_equal(mesh.cells[:2], square().cells)
+    assert len(mesh.cells) == 2 + 2 * 2 * 2
+
+
+def test_square_in_all_directions() -> None:
+    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL, BOTTOM), layers([1.0, 3.0], below=[0.5, 5.0]))
+    check(mesh)
+    assert area(mesh, LIQUID) == pytest.approx(7.0 * 6.0, rel=1e-14)
+    assert length(mesh, BOTTOM) == pytest.approx(7.0, rel=1e-14)
+    assert length(mesh, LEFT_WALL) == length(mesh, RIGHT_WALL) == pytest.approx(6.0, rel=1e-14)
+    np.testing.assert_allclose(facets(mesh, BOTTOM)[..., 1], -6.0)
+
+
+def test_far_ends_are_one() -> None:
+    mesh = with_far_ends(square(), (LEFT_WALL, RIGHT_WALL))
+    assert length(mesh, FAR_END) == 2.0
+    assert set(mesh.facet_names) == {BOTTOM, FREE_SURFACE, FAR_END}
+    check(mesh)

@@ -10,7 +10,7 @@ import numpy as np
 from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.level_bed.solution import shift_above
 from hydroelastic.fem.mode_set import Mode, ModeSet
-from hydroelastic.fem.modes import HIDDEN, Products, as_made, solve_modes
+from hydroelastic.fem.modes import HIDDEN, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.second_start import lowest_beyond
@@ -125,7 +125,6 @@ def solve_classes(
     pencils: dict[ClassParity, CoupledPencil],
     count: int,
     tolerance: float,
-    products: Products = as_made,
     *,
     solve: ClassSolver | None = None,
     shares: dict[ClassParity, int] | None = None,
@@ -136,14 +135,13 @@ def solve_classes(
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
         tolerance: largest relative error of frequencies that is accepted.
-        products: of the operators; see `solve_modes`.
         solve: finds modes of a class; by default `solve_modes`.
         shares: about the number of modes of each class; as many of each by default.
     """
 
     def solve_class(_parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
         # The error of λ is that of the residual squared.
-        return solve_modes(pencil, share, shapes=0, tolerance=max(OF_RESIDUALS * tolerance, 1e-12), products=products)
+        return solve_modes(pencil, share, shapes=0, tolerance=max(OF_RESIDUALS * tolerance, 1e-12))
 
     solve = solve or solve_class
     if not pencils:
@@ -210,14 +208,14 @@ def count_is_confirmed(
     return True
 
 
-def no_mode_is_beyond(solution: ClassModes, products: Products = as_made) -> bool:
+def no_mode_is_beyond(solution: ClassModes) -> bool:
     """Whether a second start finds no further mode of any class below the widest of the last gaps (collective).
 
     Each eigenvalue found has another one within its residual, so that none is too many.
     """
     shift = shift_above(solution.eigenvalues)
     return all(
-        lowest_beyond(one.pencil, one.modes, _OF_SECOND_START, products) > (1.0 + _OF_SECOND_START) * shift
+        lowest_beyond(one.pencil, one.modes, _OF_SECOND_START) > (1.0 + _OF_SECOND_START) * shift
         for one in solution.classes
     )
 

@@ -15,7 +15,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.mode_set import ModeSet
-from hydroelastic.fem.modes import Products, solve_modes
+from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
 from hydroelastic.fem.plan.rectangle_body import ClassParity
@@ -37,12 +37,11 @@ class _CoarserModes:
     """Modes of the coarser space, by class, more where they are asked for."""
 
     pencils: dict[ClassParity, CoupledPencil]
-    products: Products
     found: dict[ClassParity, ModeSet] = field(default_factory=dict)
 
     def shares(self, count: int) -> dict[ClassParity, int]:
         """The number of modes of each class among the lowest, and one that shows what is beyond (collective)."""
-        modes = solve_classes(self.pencils, count, _COARSE, self.products)
+        modes = solve_classes(self.pencils, count, _COARSE)
         self.found = {one.parity: one.modes for one in modes.classes}
         own = np.bincount([number for number, _ in modes.origins], minlength=len(modes.classes))
         beyond = 0 if len(own) == 1 else 1
@@ -51,9 +50,7 @@ class _CoarserModes:
     def displacements(self, parity: ClassParity, count: int) -> tuple[PETSc.Vec, ...]:
         """Those of the lowest modes of a class, fewer if it has fewer (collective)."""
         if len(self.found[parity].eigenvectors) < count:
-            self.found[parity] = solve_modes(
-                self.pencils[parity], count, shapes=0, tolerance=OF_RESIDUALS * _COARSE, products=self.products
-            )
+            self.found[parity] = solve_modes(self.pencils[parity], count, shapes=0, tolerance=OF_RESIDUALS * _COARSE)
         return self.found[parity].eigenvectors[:count]
 
 
@@ -64,7 +61,6 @@ def volume_modes(
     tolerance: float,
     *,
     solver_of: SolverOf,
-    products: Products,
     report: Report = lambda _message: None,
 ) -> ClassModes:
     """Return the lowest modes of all classes (collective).
@@ -75,12 +71,11 @@ def volume_modes(
         count: number of modes; fewer are returned if the model has fewer.
         tolerance: largest relative error of frequencies that is accepted.
         solver_of: makes the solver of Laplace's equation in the coarser space.
-        products: of the operators; see `fem.modes.solve_modes`.
         report: receives messages on the progress.
     """
     report("modes of the coarser space")
     coarser = replace(model, resolution=replace(model.resolution, degree=model.resolution.degree // 2))
-    coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils}, products)
+    coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils})
     residual = min(_RESIDUAL * tolerance**0.5, _LARGEST_RESIDUAL)
 
     def solve(parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
@@ -88,17 +83,17 @@ def volume_modes(
         before = lower.solver.solves
         given = coarse.displacements(parity, share)
         if len(given) < share:
-            return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance, products=products)
+            return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance)
         start = _prolonged(lower, pencil, given)
-        found = refined_modes(pencil, start, residual, products, beyond=len(pencils) > 1, report=report)
+        found = refined_modes(pencil, start, residual, beyond=len(pencils) > 1, report=report)
         # Solutions in the coarser space by what they cost.
         cheaper = (lower.solver.solves - before + coarse.found[parity].solves) * lower.liquid.size / pencil.liquid.size
         return replace(found, solves=found.solves + ceil(cheaper))
 
     try:
-        return solve_classes(pencils, count, tolerance, products, solve=solve, shares=coarse.shares(count))
+        return solve_classes(pencils, count, tolerance, solve=solve, shares=coarse.shares(count))
     except EigenSolverError:
-        return solve_classes(pencils, count, tolerance, products)
+        return solve_classes(pencils, count, tolerance)
 
 
 def _prolonged(

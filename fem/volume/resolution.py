@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from math import ceil, log, pi
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -183,12 +182,6 @@ class VolumeResolution:
         if plates > 1.0:
             finer = replace(finer, polynomials=more_polynomials(self.polynomials, plates, most=_MOST_POLYNOMIALS))
         return None if finer == self or sizes.edge < _SMALLEST else finer
-
-
-def resolution_of(kept: dict[str, Any]) -> VolumeResolution:
-    """Return a resolution that was kept by its fields, in types of JSON."""
-    sizes, polynomials = VolumeSizes(**kept["sizes"]), tuple(kept["polynomials"])
-    return VolumeResolution(**{**kept, "sizes": sizes, "polynomials": polynomials})
 
 
 def _step(excess: float, order: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count as numbered
 from sys import maxsize
@@ -13,13 +13,11 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.cells import cell_corners, owned_cells
-from hydroelastic.fem.checkpoint import Checkpoint, unfinished_run
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.memory import release_matrices
 from hydroelastic.fem.mode_set import Mode
-from hydroelastic.fem.modes import Products, as_made
 from hydroelastic.fem.plan.classes import (
     ClassModes,
     SymmetryClass,
@@ -44,7 +42,6 @@ from hydroelastic.fem.volume.resolution import (
     VolumeErrors,
     VolumeResolution,
     next_resolution,
-    resolution_of,
     volume_resolution,
     with_refinements,
 )
@@ -133,30 +130,15 @@ def solve_volume(
         comm: the processes over which the mesh is distributed; all by default.
         report: receives messages on the progress.
 
-    A long solution that was ended goes on from its last product; see `fem.checkpoint`.
-
     Raises:
         MeshError: if the volume cannot be meshed.
         TooLargeError: if the first resolution does not fit into memory.
     """
     processes = comm or MPI.COMM_WORLD
-    with unfinished_run(f"{tank!r} {tolerance!r} {count}", processes) as unfinished:
-        return _solve(tank, tolerance, count, processes, unfinished, report)
-
-
-def _solve(
-    tank: VolumeTank, tolerance: float, count: int, processes: MPI.Comm, unfinished: Checkpoint | None, report: Report
-) -> VolumeSolution:
-    mirrors = volume_mirrors(tank)
-    start, first = volume_resolution(tank, tolerance, count, mirrors), 1
-    if unfinished is not None and unfinished.state is not None:
-        start, first = resolution_of(unfinished.state["resolution"]), unfinished.state["attempt"]
-        report(f"attempt {first} of a run that did not end is continued")
-    attempts = numbered(first)
+    mirrors, attempts = volume_mirrors(tank), numbered(1)
 
     def solve(resolution: VolumeResolution) -> VolumeSolution:
         attempt = next(attempts)
-        products: Products = as_made
         sizes = with_refinements(tank, resolution.sizes, mirrors)
         layered = bool(resolution.sizes.layers)
 
@@ -171,11 +153,6 @@ def _solve(
         solver_of = partial(direct_or_multigrid, tolerance=tolerance)
         # Multigrid would hardly converge on layers.
         pencils = model.pencils(partial(solver_of, largest=maxsize) if layered else solver_of)
-        if unfinished is not None and any(isinstance(one.solver, MultigridSolver) for one in pencils.values()):
-            # Products of other matrices, of a changed file say, are none of these.
-            norms = [f"{part.norm():.9e}" for one in pencils.values() for part in (one.laplace, one.coupling, one.mass)]
-            unfinished.begin({"attempt": attempt, "resolution": asdict(resolution), "norms": norms})
-            products = unfinished.of
         # Motions that grow have no second start, and are of small tanks.
         growing = any(len(one.unstable) for one in pencils.values())
         coarser = replace(model, resolution=resolution.coarser)
@@ -188,20 +165,18 @@ def _solve(
 
         def is_counted(found: ClassModes) -> bool:
             if not by_inertia:
-                return no_mode_is_beyond(found, products)
+                return no_mode_is_beyond(found)
             return count_is_confirmed(found, lambda parity: coarser.pencil(parity, _no_solver), repeated=True)
 
         def found_by_one_start() -> ClassModes:
-            return solve_classes(pencils, count + 1, tolerance, products)
+            return solve_classes(pencils, count + 1, tolerance)
 
         if growing:
             modes = found_by_one_start()
             counted = is_counted(modes)
         else:
             coarse_solver = partial(solver_of, tolerance=_COARSE, largest=maxsize if layered else DIRECT_UNKNOWNS)
-            modes = volume_modes(
-                model, pencils, count + 1, tolerance, solver_of=coarse_solver, products=products, report=told
-            )
+            modes = volume_modes(model, pencils, count + 1, tolerance, solver_of=coarse_solver, report=told)
             report(f"attempt {attempt}, {size} unknowns: count of the modes")
             counted = is_counted(modes)
             if not counted:
@@ -239,7 +214,7 @@ def _solve(
         )
 
     return adaptive_solve(
-        start,
+        volume_resolution(tank, tolerance, count, mirrors),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)

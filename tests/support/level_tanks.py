@@ -1,48 +1,70 @@
-"""Upright tanks with level beds of the reference cases: see `tests/reference/three_dimensions.json`, key `schema`."""
+"""Upright tanks with level beds of the reference cases, as documents of scenes; see `three_dimensions.json`."""
 
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from hydroelastic.fem.level_bed.solution import LevelSolution
-from hydroelastic.fem.level_bed.solve import solve_level_tank
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.plate import Disc, Plate, Strip
+import numpy as np
+
+import hydroelastic as he
 
 FILE = Path(__file__).parents[1] / "reference" / "three_dimensions.json"
 CASES: dict[str, dict[str, Any]] = {case["id"]: case for case in json.loads(FILE.read_text(encoding="utf-8"))["cases"]}
-SEPARATED = [name for name, case in CASES.items() if case["family"] in ("cylinder_plate", "box_strip")]
-"""Cases of concentric plates in cylinders, and of strips of plate or slats in boxes."""
 
 
-def reference_tank(name: str) -> LevelTank:
-    """The tank of a case with strips, discs, rings, or without a plate."""
+def tank(plan: dict[str, Any], depth: float, *bodies: dict[str, Any], **keys: Any) -> dict[str, Any]:
+    """A document of a tank of water with bodies; ``keys`` are other tables of it."""
+    liquid = [{"density": 1000.0, "depth": depth}]
+    return {"kind": "tank", "tank": plan, "liquid": liquid, "body": list(bodies)} | keys
+
+
+def plate(outline: str, rigidity: float, mass: float, **keys: Any) -> dict[str, Any]:
+    """A plate of flexural rigidity D, N·m, infinite if it is rigid, and mass per area m, kg/m²."""
+    stiffness = {"rigid": True} if rigidity == np.inf else {"flexural_rigidity": rigidity}
+    return {"kind": "plate", "outline": outline, "mass_per_area": mass} | stiffness | keys
+
+
+def reference_tank(name: str) -> dict[str, Any]:
+    """The tank of a case without a float, in the smallest of its models."""
     given = CASES[name]["inputs"]
-    plates = ()
-    if "D" in given:
-        if "R" in given:
-            outline: Disc | Strip = Disc(radius=given.get("a", given["R"]), inner_radius=given.get("b", 0.0))
-        else:
-            outline = Strip(start=given.get("x1", 0.0), length=given.get("l", given["L"]), width=given["B"])
-        plates = (
-            Plate(
-                outline=outline,
-                flexural_rigidity=float(given["D"]),
-                mass_per_area=given["m"],
-                poisson_ratio=given.get("nu", 0.3),
-                hydrostatic=bool(given["s"]),
-                slats=given.get("kind") == "slats",
-                edge="sliding" if name.startswith("cover") else "free",
-            ),
-        )
-    plan = Cylinder(radius=given["R"]) if "R" in given else Box(length=given["L"], width=given["B"])
-    return LevelTank(plan=plan, depth=given["H"], density=given.get("rho", 1000.0), gravity=given["g"], plates=plates)
+    if name == "slosh_triangle":
+        side = given["side"]
+        return tank({"plan": [[0.0, 0.0], [side, 0.0], [side / 2.0, side * np.sqrt(0.75)]]}, given["H"])
+    plan = {"radius": given["R"]} if "R" in given else {"length": given["L"], "width": given["B"]}
+    if "D" not in given:
+        return tank(plan, given["H"])
+    common: dict[str, Any] = {"hydrostatic": bool(given["s"])}
+    if given.get("kind") == "slats":
+        beam = {"kind": "beam", "start": given["x1"], "length": given["l"]} | common
+        beam |= {"flexural_rigidity": given["D"], "mass_per_length": given["m"]}
+        return tank(plan, given["H"], beam)
+    if name.startswith("cover"):
+        common["edge"] = "sliding"
+    if "R" in given:
+        inner = given.get("b", 0.0)
+        outline = "ring" if inner else "disc"
+        shape: dict[str, Any] = {"radius": given.get("a", given["R"])} | ({"inner_radius": inner} if inner else {})
+    elif "x1" in given:
+        outline, shape = "strip", {"start": given["x1"], "length": given["l"]}
+    else:
+        outline, shape = "rectangle", {"size": [given.get("l", given["L"]), given.get("b", given["B"])]}
+    return tank(plan, given["H"], plate(outline, float(given["D"]), given["m"], **shape, **common))
 
 
-@cache
-def solved(name: str, tolerance: float) -> LevelSolution:
-    """The twelve lowest modes of a case, solved once."""
-    return solve_level_tank(reference_tank(name), tolerance=tolerance, modes=12)
+def solved(document: dict[str, Any], tolerance: float, modes: int) -> he.Result:
+    result = he.solve(document | {"accuracy": {"tolerance": tolerance, "modes": modes}})
+    assert result.summary["status"] == "ok", result.summary["reasons"]
+    return result
+
+
+def frequencies(result: he.Result, column: str = "omega") -> np.ndarray:
+    """ω, rad/s, or another column of the modes, each as often as it occurs."""
+    times = result.modes.multiplicity if "multiplicity" in result.modes.dtype.names else 1
+    return np.repeat(result.modes[column], times)
+
+
+def reference(name: str) -> np.ndarray:
+    """ω of a case, rad/s, each as often as it occurs."""
+    return np.repeat(CASES[name]["omega"], CASES[name].get("multiplicity", [1] * len(CASES[name]["omega"])))

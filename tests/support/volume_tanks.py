@@ -1,24 +1,20 @@
-"""Tanks on meshes of their volume."""
+"""A tank on a mesh of its volume."""
 
 from __future__ import annotations
 
-from dataclasses import fields
-from typing import Any
+import json
+from pathlib import Path
 
-from level_tanks import CASES
-
-from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.level_tank import Box
 from hydroelastic.physics.plate import Plate, Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
 
 
-def as_volume(tank: LevelTank, **changes: Any) -> VolumeTank:
-    given = {field.name: getattr(tank, field.name) for field in fields(tank)}
-    return VolumeTank(**(given | changes))
-
-
 def rectangle_in_a_box() -> VolumeTank:
-    given = CASES["rectangle_base_s0"]["inputs"]
+    """The case ``rectangle_base_s0`` of the references."""
+    file = Path(__file__).parents[1] / "reference" / "three_dimensions.json"
+    cases = json.loads(file.read_text(encoding="utf-8"))["cases"]
+    (given,) = [case["inputs"] for case in cases if case["id"] == "rectangle_base_s0"]
     plate = Plate(
         outline=Rectangle(position=(given["L"] / 2.0, given["B"] / 2.0), size=(given["l"], given["b"])),
         flexural_rigidity=given["D"],

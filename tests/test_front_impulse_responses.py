@@ -126,7 +126,7 @@ def test_k_at_the_start_is_the_integral_of_damping(name: str) -> None:
         start += 2.0 / np.pi * damping[-1] * last / 2.0
     scale = np.sqrt(np.outer(np.diag(start), np.diag(start)))
     difference = np.abs(found["impulse_response"][0] - start) / scale
-    # The trapezoidal rule and the errors of damping at high frequencies leave 2 %, the next resonance at 5.554 rad/s 0.2 %.
+    # The trapezoidal rule and the errors of damping at high frequencies leave 2 %, the resonance at 5.554 rad/s 0.2 %.
     assert difference.max() < found["impulse_response_error"][0] + 0.02
     assert found["impulse_response_error"][0] <= 0.02
 

@@ -54,7 +54,7 @@ from hydroelastic.physics.tank import Tank
 
 # Points of the ray, of the arc beyond it and of the real axis at which the basis must be accurate.
 _ON_RAY, _ON_ARC, _ON_AXIS = 40, 12, 20
-# Part of the tolerance left to the basis: its errors at low frequencies, on the ray and on the real axis, differ.
+# Part of the tolerance that is left to the basis: in long waves its error on the ray is not that on the real axis.
 _OF_BASIS = 0.1
 # Error of the trapezoidal rule along the ray.
 _RULE = 1e-9

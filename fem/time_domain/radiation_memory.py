@@ -32,7 +32,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import pi, sqrt
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -195,7 +195,7 @@ class RadiationMemory:
             scale = sqrt(starts[i] * starts[j])
             whole, least = (size[:, i] * size[:, j] / scale for size in (sizes, limits))
             doubt = sqrt(tail.error[i] * tail.error[j]) + _LEAST_DOUBT
-            rows = [
+            rows: list[tuple[Floats, npt.NDArray[Any], Floats | float]] = [
                 (known.real, of_h[:, i, j].real / scale, errors[0] * whole),
                 (known.imag, of_h[:, i, j].imag / scale, errors[0] * whole),
                 (damped, of_b[:, i, j] / scale, doubt),

@@ -8,6 +8,7 @@ checks 3000 of them and prints each that is not accepted, or refused in words. T
 from __future__ import annotations
 
 import argparse
+import json
 import random
 import re
 import shutil
@@ -18,18 +19,50 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from copy import deepcopy
+from math import inf, nan
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from any_scenes import ODD_NUMBERS, ODD_TEXTS, Document, as_toml, places
-from click.testing import CliRunner
+from command import run_command
 
-from hydroelastic.scenes.command_line import main as command
-from hydroelastic.scenes.read import SHIPPED_FOLDER
-
+Document = dict[str, Any]
+SHIPPED_FOLDER = Path(__file__).parents[2] / "scenes"
+ODD_TEXTS = (
+    "",
+    " ",
+    "ü\u202e 火 \U0001f6a2",
+    "a\nb",
+    "\x1b[31m",
+    "x" * 300,
+    "1,5",
+    "1e3 m",
+    "inf",
+    "../..",
+    "scene.toml",
+    "$x$|*",
+)
+ODD_NUMBERS = (
+    0,
+    -1,
+    3,
+    -0.0,
+    0.5,
+    1e-300,
+    1e300,
+    -1e300,
+    5e-324,
+    inf,
+    -inf,
+    nan,
+    10**400,
+    -(10**30),
+    2**63,
+    True,
+    False,
+)
 FACTORS = (-1.0, 0.0, 0.5, 0.9, 0.999, 1.001, 1.1, 2.0, 10.0, 0.1, 1e-3, 1e3, 1e-9, 1e9, 1e-30, 1e30)
 _WORDS = ("lenght", "depth", "kind", "x" * 80, "ü", "body", "mass", "outline", "width", "radius")
 # What only programmers read, and texts with nothing where a reason should be.
@@ -91,6 +124,35 @@ def _scale(holder: Any, key: Any, chance: random.Random) -> None:
     holder[key] = type(value)(min(max(value * factor, -1e300), 1e300))
 
 
+def places(value: Any) -> Iterator[tuple[Any, Any]]:
+    """All places of a document: a table or a list, and a key or a number."""
+    items = (
+        list(value.items()) if isinstance(value, dict) else list(enumerate(value)) if isinstance(value, list) else []
+    )
+    for key, inner in items:
+        yield value, key
+        yield from places(inner)
+
+
+def as_toml(document: Document) -> str:
+    """A document as TOML, all tables inline."""
+    return "".join(f"{_text(key)} = {_written(value)}\n" for key, value in document.items())
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_text(key)} = {_written(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_written, value)) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return _text(value) if isinstance(value, str) else repr(value)
+
+
+def _text(value: str) -> str:
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def files_of_scenes(folder: Path) -> None:
     """Copy what the shipped scenes name into a folder."""
     for file in SHIPPED_FOLDER.iterdir():
@@ -102,7 +164,7 @@ def complaint(document: Document, folder: Path) -> str:
     """Check a document; return what is wrong with the answer, "" if it is accepted, or refused in words."""
     file, text = folder / "scene.toml", as_toml(document)
     file.write_text(text, encoding="utf-8")
-    result = CliRunner().invoke(command, ["check", str(file)])
+    result = run_command("check", str(file))
     said = result.output.replace(str(file), "FILE")
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         return f"{type(result.exception).__name__}: {result.exception}"

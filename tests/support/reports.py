@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
-from hydroelastic.scenes.report.page import ReportPage
-
 SCENES: dict[str, tuple[str, tuple[str, ...]]] = {
     "tank": ("aquarium", ("accuracy.modes=3", "accuracy.tolerance=1e-4")),
     "float": ("float_wedge", ("accuracy.modes=3", "accuracy.tolerance=1e-3")),
@@ -70,16 +68,3 @@ def parsed(html: str) -> Page:
     page.close()
     assert not page.open
     return page
-
-
-def shown(**changes: object) -> ReportPage:
-    values: dict[str, object] = {
-        "title": "Tank",
-        "kind": "closed tank",
-        "tolerance": 1e-6,
-        "reasons": (),
-        "warnings": (),
-        "version": "1",
-        "parts": (),
-    }
-    return ReportPage(**(values | changes))  # type: ignore[arg-type]

@@ -31,7 +31,7 @@ def kept(rows: list[dict[str, str]]) -> list[bool]:
     return [float(row["error"]) <= float(row["tolerance"]) for row in asked]
 
 
-@pytest.mark.slow_but("string")
+@pytest.mark.slow_but("tanks")
 @pytest.mark.parametrize("problem", ["tanks", "sweeps", "circle", "string", "thread", "basin", "buoys"])
 def test_each_problem_runs_on_its_smallest_case(problem: str, tmp_path: Path) -> None:
     ended = bench("--problem", problem, "--quick", "--repeats", "1", "--no-install", "--out", "out", folder=tmp_path)

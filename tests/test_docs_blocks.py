@@ -22,10 +22,12 @@ from typing import Any
 
 import pytest
 from markdown_blocks import PAGES, ROOT, Block, blocks_of, inline_code_of
-from shown_commands import commands_of, plain, read_command, run_command
+from shown_commands import commands_of, plain, read_command, run_shown
 from shown_output import is_shown
 
-from hydroelastic.scenes.read import SHIPPED_FOLDER, read_scene
+import hydroelastic as he
+
+SHIPPED_FOLDER = ROOT / "scenes"
 
 MINUTES = "takes minutes; its parts have tests of their own"
 OF_CI = "a step of the checks itself"
@@ -83,7 +85,7 @@ ELSEWHERE = {
     "./hydro run floating_roof --set body.1.thickness=0.05": "tests/test_level_tanks.py",
     "./hydro python docs/scene_reference.py": "tests/test_docs_reference.py",
     "./hydro python docs/tutorial_mesh_study.py": "tests/test_docs_tutorial.py",
-    "./hydro python results/page_tables.py": "tests/test_results_benchmarks.py",
+    "./hydro python results/page_tables.py": "tests/test_benchmarks.py",
 }
 # Commands of others, which need the network or the host.
 FOREIGN = {
@@ -126,7 +128,7 @@ class Reader:
         file = Path(named[1] if named else "shown.toml")
         base = (SHIPPED_FOLDER / added[1]).read_text(encoding="utf-8") if added else ""
         file.write_text(base + block.text, encoding="utf-8")
-        read_scene(file)
+        he.read(file)
 
     def _commands(self, block: Block) -> None:
         self.printed = ""
@@ -135,7 +137,7 @@ class Reader:
             if plain(command) in NOT_RUN | ELSEWHERE:
                 read_command(command)
             elif not _is_foreign(command):
-                self.printed += run_command(command)
+                self.printed += run_shown(command)
 
     def _python(self, block: Block) -> None:
         self.is_elsewhere = False
@@ -206,7 +208,7 @@ def test_commands_within_the_text_exist(command: str) -> None:
     if command in NOT_RUN | ELSEWHERE or (FORM.search(command) and command != "./hydro list"):
         read_command(command)
     else:
-        run_command(command)
+        run_shown(command)
 
 
 @pytest.mark.parametrize(

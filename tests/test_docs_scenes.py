@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.read import read_scene, shipped_scenes
+import hydroelastic as he
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_strings_and_ships.md").read_text(encoding="utf-8")
@@ -24,8 +23,7 @@ def test_examples_run(text: str, tmp_path: Path) -> None:
     file = tmp_path / "example.toml"
     file.write_text(text, encoding="utf-8")
     # Coarser than the page asks, to be quick.
-    scene = read_scene(file, ["accuracy.tolerance=1e-3"])
-    assert runner_of(scene)(scene).status == "ok"
+    assert he.solve(he.read(file, ["accuracy.tolerance=1e-3"])).summary["status"] == "ok"
 
 
 def test_there_is_an_example_of_each_kind() -> None:
@@ -33,5 +31,5 @@ def test_there_is_an_example_of_each_kind() -> None:
 
 
 def test_all_shipped_scenes_of_these_kinds_are_listed() -> None:
-    names = [scene.name for scene in shipped_scenes() if read_scene(scene.name).kind in ("string", "roll")]
+    names = [scene.name for scene in he.shipped_scenes() if he.read(scene.name).kind in ("string", "roll")]
     assert all(f"`{name}`" in PAGE for name in names)

@@ -6,14 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from pydantic import ValidationError
+import xarray
+from mutated_scenes import as_toml
 
-from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.thread.quantities import THREAD
-from hydroelastic.output.variables import array_variables
-from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.read import read_scene, shipped_scenes
+import hydroelastic as he
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_threads.md").read_text(encoding="utf-8")
@@ -109,33 +105,24 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
 ]
 
 
-@pytest.fixture(
-    scope="module", params=[EXAMPLES[0], pytest.param(EXAMPLES[1], marks=pytest.mark.slow)], ids=["buoy", "hose"]
-)
-def outcome(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
-    """An example of the page, with its result folder but for the pictures."""
-    folder = tmp_path_factory.mktemp("thread")
-    file = folder / "example.toml"
-    file.write_text(request.param, encoding="utf-8")
+# The second one takes seconds.
+@pytest.mark.slow_but("buoy")
+@pytest.mark.parametrize("text", EXAMPLES[:2], ids=["buoy", "hose"])
+def test_examples_run_and_all_their_files_columns_and_arrays_are_told(text: str, tmp_path: Path) -> None:
+    (tmp_path / "example.toml").write_text(text, encoding="utf-8")
     # Coarser than the page asks, to be quick.
-    scene = read_scene(file, ["accuracy.tolerance=1e-3"])
-    return runner_of(scene)(scene, out=folder / "results", images=None)
-
-
-@pytest.mark.slow
-def test_examples_run(outcome: Outcome) -> None:
-    assert outcome.status == "ok"
-
-
-def test_all_files_columns_and_variables_are_told(outcome: Outcome) -> None:
-    assert outcome.folder is not None
-    for file in outcome.folder.glob("*.csv"):
+    result = he.solve(he.read(tmp_path / "example.toml", ["accuracy.tolerance=1e-3"]))
+    assert result.summary["status"] == "ok"
+    folder = tmp_path / "results"
+    result.save(folder, images=None)
+    for file in folder.glob("*.csv"):
         row = next(line for line in RESULTS.splitlines() if line.startswith(f"| `{file.name}`"))
         assert f"`{file.read_text(encoding='utf-8').splitlines()[0].replace(',', ', ')}`" in row
-    arrays = array_variables(THREAD, outcome.solution)
-    names = {name for array in arrays for name in (array.name, *array.dimensions)}
-    assert {name for name in names if f"`{name}`" not in RESULTS} == set()
-    assert all(f"`{file.name}`" in RESULTS for file in outcome.folder.iterdir() if file.is_file())
+    assert all(f"`{file.name}`" in RESULTS for file in folder.iterdir() if file.is_file())
+    with xarray.open_dataset(folder / "dataset.nc") as dataset:
+        nodes = {name for name, array in dataset.data_vars.items() if "node" in array.dims}
+    assert nodes
+    assert {name for name in nodes if f"`{name}`" not in RESULTS} == set()
 
 
 def _changed(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
@@ -155,10 +142,11 @@ def _changed(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize(("base", "changes", "said"), REFUSALS, ids=[said for _, _, said in REFUSALS])
 def test_what_is_refused_is_said_so(base: dict[str, Any], changes: dict[str, Any], said: str, tmp_path: Path) -> None:
     (tmp_path / "motion.csv").write_text("0,0,0,0\n0.1,0,0,0\n0.2,0,0,0\n0.3,0,0,0\n", encoding="utf-8")
-    context = {"folder": tmp_path}
-    ThreadScene.model_validate(base, context=context)
-    with pytest.raises(ValidationError, match=re.escape(said)):
-        ThreadScene.model_validate(_changed(base, changes), context=context)
+    accepted = {"kind": "thread", **base}
+    assert he.read(accepted).kind == "thread"
+    (tmp_path / "scene.toml").write_text(as_toml({"kind": "thread", **_changed(base, changes)}), encoding="utf-8")
+    with pytest.raises(he.SceneError, match=re.escape(said)):
+        he.read(tmp_path / "scene.toml")
 
 
 def test_all_that_is_told_to_be_refused_is_tried() -> None:
@@ -166,6 +154,6 @@ def test_all_that_is_told_to_be_refused_is_tried() -> None:
 
 
 def test_all_shipped_threads_are_listed() -> None:
-    names = [scene.name for scene in shipped_scenes() if read_scene(scene.name).kind == "thread"]
+    names = [scene.name for scene in he.shipped_scenes() if he.read(scene.name).kind == "thread"]
     assert len(names) == 7
     assert all(f"`{name}`" in PAGE for name in names)

@@ -7,10 +7,8 @@ import subprocess
 import sys
 
 import click
-from click.testing import CliRunner
+from command import main, run_command
 from markdown_blocks import ROOT
-
-from hydroelastic.scenes.command_line import main
 
 _STARTS_OF_LAUNCHER = ("test", "lint", "docs", "python", "mpirun", "exec", "shell", "env", "help")
 _EXIT_CODE = re.compile(r"#\s*exit code (\d)")
@@ -26,7 +24,7 @@ def plain(command: str) -> str:
     return shlex.join(shlex.split(command, comments=True))
 
 
-def run_command(command: str) -> str:
+def run_shown(command: str) -> str:
     """Run a command of the launcher in the current folder, in this environment; or copy a file.
 
     Returns:
@@ -45,7 +43,7 @@ def run_command(command: str) -> str:
         code, printed = done.returncode, done.stdout + done.stderr
     else:
         assert word in main.commands, f"{command}: no such command"
-        result = CliRunner().invoke(main, [word, *arguments])
+        result = run_command(word, *arguments)
         if result.exception is not None and not isinstance(result.exception, SystemExit):
             raise result.exception
         code, printed = result.exit_code, result.output

@@ -5,8 +5,6 @@ import pickle
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from html.parser import HTMLParser
 from pathlib import Path
 from types import ModuleType
@@ -15,10 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray
-from click.testing import CliRunner
+from command import run_command
 
 import hydroelastic as he
-from hydroelastic.scenes.command_line import main
 
 ROOT = Path(__file__).parent.parent
 # One cheap scene of each kind, and the number of modes in its table.
@@ -68,7 +65,7 @@ def test_save_writes_the_folder_of_the_command(solved: tuple[str, he.Result, Pat
     name, changes, _ = SCENES[kind]
     options = [word for key, value in changes.items() for word in ("--set", f"{key}={toml(value)}")]
     out = tmp_path / "of the command"
-    ended = CliRunner().invoke(main, ["run", name, "--report", "--out", str(out), *options], catch_exceptions=False)
+    ended = run_command("run", name, "--report", "--out", str(out), *options)
     assert ended.exit_code == 0
     files = {file.relative_to(saved) for file in saved.rglob("*") if file.is_file()}
     assert files == {file.relative_to(out) for file in out.rglob("*") if file.is_file()}
@@ -298,21 +295,6 @@ def test_notebooks_complete_the_keys_of_scenes_that_were_not_used_before() -> No
     code = "import inspect, hydroelastic as he; print(*inspect.signature(he.ThreadScene).parameters)"
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ended.stdout.split() == [*he.ThreadScene.model_fields]
-
-
-def test_the_current_step_is_shown_if_asked(monkeypatch: pytest.MonkeyPatch) -> None:
-    seen: list[str] = []
-
-    @contextmanager
-    def line(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
-        yield lambda step: seen.append(f"{step} of {title}") if shown else None
-
-    monkeypatch.setattr("hydroelastic.scenes.result.progress", line)
-    scene = he.read("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3})
-    he.solve(scene)
-    assert not seen
-    he.solve(scene, report=True)
-    assert any(step.startswith("attempt 1") and step.endswith(str(scene.title)) for step in seen)
 
 
 def test_a_notebook_shows_the_current_step_without_ipywidgets(monkeypatch: pytest.MonkeyPatch) -> None:

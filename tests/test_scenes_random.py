@@ -9,15 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 from random_scenes import HOW_MANY, coarse, hundred_scenes
 from random_tanks import draw_tanks
 
-from hydroelastic.scenes.models.bodies import Beam
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.read import Scene
-from hydroelastic.scenes.run import run_scene
-from hydroelastic.scenes.tank.solve import solve_scene
+import hydroelastic as he
 
 SCENES = hundred_scenes()
 TANKS = [coarse(scene) for scene in draw_tanks(11, 12)]
@@ -33,7 +28,7 @@ def test_there_are_a_hundred() -> None:
 @pytest.mark.parametrize("number", range(100))
 def test_a_random_scene_runs_and_tells_how_well(number: int, tmp_path: Path) -> None:
     _, scene = SCENES[number]
-    run_scene(scene, out=tmp_path / "result", images=None)
+    he.solve(scene).save(tmp_path / "result", images=None)
     summary = json.loads((tmp_path / "result" / "summary.json").read_text(encoding="utf-8"), parse_constant=_no_number)
     for table in (tmp_path / "result").rglob("*.csv"):
         with table.open(encoding="utf-8", newline="") as file:
@@ -65,14 +60,13 @@ def _errors(value: Any) -> Iterator[float]:
         yield from _errors(inner)
 
 
-def frequencies(scene: TankScene, comm: MPI.Comm = MPI.COMM_SELF) -> tuple[np.ndarray, np.ndarray]:
+def frequencies(scene: he.TankScene) -> tuple[np.ndarray, np.ndarray]:
     """ω and what they may be off by, rad/s, of as many modes as are asked for."""
-    solution = solve_scene(scene, comm=comm, report=lambda _message: None)
-    omega = np.array([solution.omega(mode.eigenvalue) for mode in solution.asked])
-    return omega, omega * solution.relative_errors[: len(omega)]
+    modes = he.solve(scene).modes
+    return modes.omega, modes.omega * modes.relative_error
 
 
-def beams_changed(scene: TankScene, change: Callable[[Beam], dict[str, Any]]) -> TankScene:
+def beams_changed(scene: he.TankScene, change: Callable[[Any], dict[str, Any]]) -> he.TankScene:
     bodies = tuple(beam.model_copy(update=change(beam)) for _, beam in scene.beams)
     return scene.model_copy(update={"body": bodies})
 
@@ -134,16 +128,7 @@ def test_a_denser_liquid_under_a_lid_lowers_the_elastic_frequencies(number: int)
     assert lowered.sum() < omega.sum()
 
 
-@pytest.mark.mpi
-@pytest.mark.slow
-@pytest.mark.parametrize("number", range(len(TANKS)))
-def test_any_number_of_ranks_gives_the_same_frequencies(number: int) -> None:
-    """All ranks together beside each alone."""
-    (omega, error), (other, other_error) = frequencies(TANKS[number], MPI.COMM_WORLD), frequencies(TANKS[number])
-    assert np.all(np.abs(other - omega) <= error + other_error)
-
-
-def _kinds(scenes: list[tuple[str, Scene]]) -> set[str]:
+def _kinds(scenes: list[tuple[str, Any]]) -> set[str]:
     return {scene.kind for _, scene in scenes}
 
 

@@ -10,14 +10,13 @@ from random_floats import draw_floats
 from random_tanks import draw_tanks
 from random_threads import all_numbers, random_thread
 
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.read import SCENE_MODELS, Scene
+import hydroelastic as he
 
 SEED = 20240
 HOW_MANY = {"beams": 30, "floats": 20, "open": 6, "string": 14, "thread": 20, "roll": 10}
 
 
-def hundred_scenes() -> list[tuple[str, Scene]]:
+def hundred_scenes() -> list[tuple[str, Any]]:
     """Return names and scenes: tanks with beams and with floats, open water, strings, threads, ships."""
     random = np.random.default_rng(SEED)
     threads = all_numbers(0.2)
@@ -26,13 +25,13 @@ def hundred_scenes() -> list[tuple[str, Scene]]:
     documents += [("string", _string(random)) for _ in range(HOW_MANY["string"])]
     documents += [("thread", random_thread(*one) | {"kind": "thread"}) for one in chosen]
     documents += [("roll", _ship(random)) for _ in range(HOW_MANY["roll"])]
-    scenes: list[tuple[str, Scene]] = [("beams", coarse(scene)) for scene in draw_tanks(SEED, HOW_MANY["beams"])]
+    scenes: list[tuple[str, Any]] = [("beams", coarse(scene)) for scene in draw_tanks(SEED, HOW_MANY["beams"])]
     scenes += [("floats", coarse(scene)) for scene in draw_floats(SEED, HOW_MANY["floats"], wide=True)]
-    scenes += [(name, SCENE_MODELS[document["kind"]].model_validate(document)) for name, document in documents]
+    scenes += [(name, he.read(document)) for name, document in documents]
     return scenes
 
 
-def coarse(scene: TankScene) -> TankScene:
+def coarse(scene: he.TankScene) -> he.TankScene:
     """The same tank, asked for four modes at most to 1e-4."""
     accuracy = scene.accuracy.model_copy(update={"tolerance": 1e-4, "modes": min(scene.accuracy.modes, 4)})
     return scene.model_copy(update={"accuracy": accuracy})

@@ -219,7 +219,6 @@ def test_waves_in_a_tank_are_cosines_of_known_height(tmp_path: Path) -> None:
     assert error < np.sqrt(2.0 * dataset.relative_error.max())
 
 
-@pytest.mark.slow
 def test_bodies_move_by_their_motions(folder_of: Callable[[str], Path]) -> None:
     """Each point of a float's contour moves by heave, sway and roll about the centre of mass."""
     dataset, summary = read_dataset(folder_of("floats") / "dataset.nc")

@@ -128,6 +128,7 @@ def test_a_run_prints_its_table_and_writes_the_folder(tmp_path: Path) -> None:
     # The frequencies, to the digits that are certain.
     for mode in read_summary(tmp_path / "result")["modes"]:
         assert f"{mode['omega']:.3f}" in result.output
+        assert f"{mode['relative_error']:.1e}" in result.output
     assert f"Results written to {tmp_path / 'result'}/" in " ".join(result.output.split())
 
 

@@ -33,7 +33,7 @@ def pixels(file: Path) -> np.ndarray:
         return np.asarray(picture.convert("RGB"), dtype=float)
 
 
-@pytest.mark.slow_but("tank", "two liquids", "string")
+@pytest.mark.slow_but("tank", "string")
 @pytest.mark.parametrize("kind", SCENES)
 def test_pictures_of_each_kind_are_drawn(kind: str, tmp_path: Path) -> None:
     name, changes, expected = SCENES[kind]

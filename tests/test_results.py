@@ -114,7 +114,7 @@ def different(old: dict[str, Any], new: dict[str, Any], tolerance: float) -> Ite
                 yield f"{key}: {one[key]} is {other[key]}"
 
 
-@pytest.mark.slow_but("aquarium", "float_parabola", "string_smooth", "swell", "catenary")
+@pytest.mark.slow_but("aquarium", "string_smooth", "swell")
 @pytest.mark.parametrize("name", KINDS)
 def test_results_are_true(name: str) -> None:
     scene = he.read(name)

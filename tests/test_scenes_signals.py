@@ -88,7 +88,7 @@ def test_ctrl_c_before_python_has_started_is_one_line() -> None:
     assert (ended.returncode, ended.stdout) == (128 + signal.SIGINT, "")
 
 
-@pytest.mark.slow_but("open-dataset.nc-15")
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize(("event", "name"), [STARTED[2], WRITING[1]])
 def test_other_signals_are_silent_and_leave_nothing(tmp_path: Path, event: str, name: str, number: int) -> None:

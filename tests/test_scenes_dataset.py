@@ -64,7 +64,7 @@ shape = "ellipse"
 position = 2.0
 half_width = 0.5
 half_height = 0.5
-motions = ["heave", "sway"]
+motions = ["heave"]
 [[body]]
 start = 5.0
 length = 4.0
@@ -151,7 +151,8 @@ def test_no_number_and_no_word_of_a_summary_is_missing_in_the_variables(folder: 
     for place, value in _leaves({key: part for key, part in summary.items() if key != "scene"}):
         if isinstance(value, str) and value not in ("inf", "-inf"):
             assert value.lower() in words, place
-        elif value is not None:
+        elif value is not None and ".largest" not in place:
+            # The largest values of curves, which are in the summary alone, lie between samples.
             assert float(value) in numbers, place
 
 

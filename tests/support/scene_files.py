@@ -1,11 +1,11 @@
 """Scenes that a test writes."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.read import Scene, read_scene
+import hydroelastic as he
 
 BEAM_IN_TANK = """
 kind = "tank"
@@ -38,15 +38,15 @@ half_height = 0.5
 """
 
 
-def read_written(folder: Path, text: str) -> Scene:
+def read_written(folder: Path, text: str) -> Any:
     """Write the text of a scene into a folder and read it."""
     file = folder / "scene.toml"
     file.write_text(text, encoding="utf-8")
-    return read_scene(file)
+    return he.read(file)
 
 
 def refused(folder: Path, text: str) -> str:
     """Return what is said of the text of a scene that is refused."""
-    with pytest.raises(SceneError) as error:
+    with pytest.raises(he.SceneError) as error:
         read_written(folder, text)
     return str(error.value)

@@ -76,7 +76,9 @@ def test_both_dampings_beside_another_integration() -> None:
     def rates(time: float, y: Any) -> list[float]:
         return [y[1], k**2 * (slope(time) - y[0]) - 2.0 * 0.6 * k * y[1] - 5.0 * abs(y[1]) * y[1]]
 
-    found = solve_ivp(rates, (0.0, 30.0), [0.0, 0.0], t_eval=[5.0, 10.0, 20.0, 30.0], rtol=1e-11, atol=1e-13, max_step=0.05)
+    found = solve_ivp(
+        rates, (0.0, 30.0), [0.0, 0.0], t_eval=[5.0, 10.0, 20.0, 30.0], rtol=1e-11, atol=1e-13, max_step=0.05
+    )
     assert result.dataset.angle.values == pytest.approx(found.y[0], abs=1e-8)
 
 
@@ -148,7 +150,9 @@ def section_in_open_water(folder: Path, tolerance: float) -> tuple[Any, dict[str
     """A rectangle in open water, whose roll makes waves, and the summary of a ship of that section."""
     section = read_written(folder, RECTANGLE.replace("TOLERANCE", str(tolerance)))
     (folder / "section.toml").write_text((folder / "scene.toml").read_text(encoding="utf-8"), encoding="utf-8")
-    ship = f'kind = "roll"\nroll = {{ section = "section.toml", angle = 0.1 }}\naccuracy = {{ tolerance = {tolerance} }}\n'
+    ship = (
+        f'kind = "roll"\nroll = {{ section = "section.toml", angle = 0.1 }}\naccuracy = {{ tolerance = {tolerance} }}\n'
+    )
     return section, he.solve(read_written(folder, ship)).summary
 
 

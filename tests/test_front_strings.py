@@ -235,15 +235,19 @@ def test_metres_and_millimetres_give_the_same_digits() -> None:
     changes: dict[str, Any] = {"output.times": {"start": 0.0, "stop": 8.0, "number": 9}}
     metres = displacement(he.read("string_sine", changes))
     changes |= {"string.length": 1e-3, "string.gravity": 9.81e-3, "motion.amplitude": 2e-5}
-    assert 1e3 * displacement(he.read("string_sine", changes)) == pytest.approx(metres, abs=1e-12 * np.abs(metres).max())
+    assert 1e3 * displacement(he.read("string_sine", changes)) == pytest.approx(
+        metres, abs=1e-12 * np.abs(metres).max()
+    )
 
 
 def test_nothing_moves_before_the_front_and_what_is_beside_it_is_told_apart() -> None:
     result = he.solve("string_step")
     data, told = result.dataset, result.summary["response"]
     # A wave takes 2(√l − √x)/√g.
-    arrival = 2.0 * (1.0 - np.sqrt(data.position.values / data.position.values[-1])) * np.sqrt(
-        data.position.values[-1] / 9.81
+    arrival = (
+        2.0
+        * (1.0 - np.sqrt(data.position.values / data.position.values[-1]))
+        * np.sqrt(data.position.values[-1] / 9.81)
     )
     before = data.time.values[None, :] < arrival[:, None] * (1.0 - 1e-12)
     assert before.sum() > 1000
@@ -257,7 +261,7 @@ def test_nothing_moves_before_the_front_and_what_is_beside_it_is_told_apart() ->
 
 @pytest.mark.slow
 def test_values_in_a_front_are_not_claimed_by_a_field() -> None:
-    """At x = 0.25 the front of a step passes at t = 1: what is given is the mean of both sides, off by half the jump."""
+    """At x = 0.25 the front of a step passes at t = 1: given is the mean of both sides, off by half the jump."""
     output = {"positions": [0.25], "times": [1.0]}
     asked = {"tolerance": 1e-3, "method": "field"}
     data = he.solve(hung({"resistance": 0.2}, output=output, accuracy=asked)).dataset
@@ -294,7 +298,12 @@ def test_the_steady_amplitude_is_that_of_late_times() -> None:
 
 def test_compare_sets_both_methods_side_by_side_where_both_are() -> None:
     ran = run_command(
-        "compare", "string_smooth", "--set", "output={positions=[0.0, 0.5], times=[0.5]}", "--set", "accuracy.tolerance=1e-4"
+        "compare",
+        "string_smooth",
+        "--set",
+        "output={positions=[0.0, 0.5], times=[0.5]}",
+        "--set",
+        "accuracy.tolerance=1e-4",
     )
     assert ran.exit_code == 0
     assert ran.output.splitlines()[1] == "The field solution beside the series"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,7 @@ def test_the_tension_just_after_an_end_is_let_go() -> None:
         tol=1e-8,
     )
     asked = motion([0.0, 0.1, 0.101], release=[{"end": "b", "time": 0.1}])
-    told, data = moved(scene(thread, fixed(reach, 0.0, 0.0), asked))
+    _, data = moved(scene(thread, fixed(reach, 0.0, 0.0), asked))
     nodes, tension = data.node.values, data.motion_tension.values
     at_rest = G * np.hypot(nodes - 0.5, height)
     # Nodal tensions are means of linear functions on both sides, of second order: h²κ²T/12.
@@ -128,17 +129,13 @@ def test_energy_lost_is_what_the_drag_takes() -> None:
     assert told["energy_at_start"] == pytest.approx(energies[0])
 
 
-@pytest.mark.parametrize(
-    ("integrator", "rigidity", "steps"),
-    [("midpoint", None, (0.01, 0.005, 0.0025)), ("generalized_alpha", 400.0, (0.01, 0.005, 0.0025))],
-)
-def test_both_integrators_are_of_second_order(integrator: str, rigidity: float | None, steps: Any) -> None:
+def test_generalised_alpha_is_of_second_order() -> None:
     tips = []
-    for step in steps:
-        asked = motion([0.0, 0.2], 0.1, step=step, integrator=integrator, **ASIDE)
-        _, data = moved(scene(CHAIN | {"axial_rigidity": rigidity}, BOB, asked))
+    for step in (0.01, 0.005, 0.0025):
+        asked = motion([0.0, 0.2], 0.1, step=step, integrator="generalized_alpha", **ASIDE)
+        _, data = moved(scene(CHAIN | {"axial_rigidity": 400.0}, BOB, asked))
         tips.append(data.motion_position.values[1, -1])
-    changes = [np.abs(a - b).max() for a, b in zip(tips, tips[1:], strict=False)]
+    changes = [np.abs(a - b).max() for a, b in pairwise(tips)]
     assert np.log2(changes[0] / changes[1]) == pytest.approx(2.0, abs=0.15)
 
 
@@ -172,7 +169,7 @@ def test_small_motions_are_those_of_the_hanging_string(tmp_path: Path) -> None:
     thread = CHAIN | {"diameter": DIAMETER, "viscous_drag": 0.6, "added_mass": 0.4}
     # A thousandth of the motion is a millionth of the length.
     asked = motion([0.0, 0.5, 1.0, 1.5], 1e-6, move=[{"end": "a", "file": str(tmp_path / "lead.csv")}])
-    told, data = moved(scene(thread, BOB, asked, stream=WATER))
+    _, data = moved(scene(thread, BOB, asked, stream=WATER))
     places = [int(np.argmin(np.abs(data.node.values - place))) for place in (1.0, 0.5)]
     assert data.node.values[places] == pytest.approx([1.0, 0.5])
     found = data.motion_position.values[1:, places, 0].T
@@ -196,7 +193,7 @@ def test_towed_through_still_water_it_trails_as_in_a_current() -> None:
 
 
 def test_vortices_push_across() -> None:
-    """A straight thread across a stream, let go, moves level as a rigid body by drag and lift, and falls along itself."""
+    """A straight thread across a stream, let go, moves as a rigid body by drag and lift, and falls along itself."""
     lift, strouhal, diameter = 1.2, 0.2, 0.1
     thread = {"length": 1.0, "mass": 20.0, "weight": 200.0, "diameter": diameter, "normal_drag": 1.0}
     course = {"start": "straight", "release": [{"end": "a", "time": 0.0}]}

@@ -167,7 +167,9 @@ def test_a_buoy_on_the_surface_drifts_to_where_a_dead_pull_brings_it() -> None:
     """A pull of 900 N takes the end to some height; a surface there must bear just that."""
     thread = {"length": 120.0, "weight": 4.0, "diameter": 0.02, "normal_drag": 1.2, "tangential_drag": 0.02}
     stream = {"density": 1000.0, "velocity": [0.6, 0.2], "shear": [0.01, 0.0]}
-    exact = integrated(scene(thread, free(force=[0.0, 0.0, 900.0], drag_area=0.08), stream=stream), np.array([0.0, 120.0]))
+    exact = integrated(
+        scene(thread, free(force=[0.0, 0.0, 900.0], drag_area=0.08), stream=stream), np.array([0.0, 120.0])
+    )
     level = float(exact.positions[1, 2])
     surface = {"kind": "surface", "level": level, "drag_area": 0.08}
     rest = he.solve(scene(thread, surface, stream=stream, accuracy={"tolerance": 1e-9})).summary["equilibrium"]
@@ -188,7 +190,9 @@ def test_the_liquid_reaction_at_a_free_end_in_a_stream_nearly_along() -> None:
             turn = (weight * cosine + normal * across * abs(across)) / held
             return [cosine, sine, turn, weight * sine - tangential * along * abs(along)]
 
-        state = solve_ivp(slopes, (50.0, 0.0), [0.0, 0.0, -0.3, 600.0], method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
+        state = solve_ivp(slopes, (50.0, 0.0), [0.0, 0.0, -0.3, 600.0], method="DOP853", rtol=1e-12, atol=1e-12).y[
+            :, -1
+        ]
         document = case("S19b")
         rest = he.solve(document | {"thread": document["thread"] | {"reactive": reactive}}).summary["equilibrium"]
         assert np.array(rest["end_positions"][1])[[0, 2]] == pytest.approx(-state[:2], abs=1e-7 * 50.0)

@@ -1,5 +1,7 @@
 """Scenes of threads in a stream: what is read, what is refused, and in which words."""
 
+import re
+from math import nextafter
 from pathlib import Path
 
 import pytest
@@ -229,3 +231,18 @@ def test_tables_of_an_end_that_are_refused(tmp_path: Path, rows: list[str], word
     move = "[[analysis.move]]\nend = 'a'\nfile = 'move.csv'\n"
     message = refused(tmp_path, thread("mass = 1.0"), FIXED, MOTION, move)
     assert all(word in message for word in ['"move.csv"', *words]), message
+
+
+@pytest.mark.parametrize("length", [1.0, 1.000000001, nextafter(1.0, 2.0), 0.5])
+def test_the_length_that_is_allowed_is_accepted(tmp_path: Path, length: float) -> None:
+    for chord in (1.0, 13.7, 1e-3):
+        fixed = FIXED.replace("1.0", repr(chord))
+        message = refused(tmp_path, THREAD.replace("2.0", repr(length * chord)), fixed)
+        (allowed,) = re.findall(r"(\S+) m or more, or axial_rigidity", message)
+        assert read(tmp_path, THREAD.replace("2.0", allowed), fixed)
+        assert read(tmp_path, thread(LIMP).replace("2.0", repr(length * chord)), fixed)
+
+
+def test_numbers_that_nearly_agree_are_told_apart(tmp_path: Path) -> None:
+    message = refused(tmp_path, THREAD.replace("2.0", "10.000001"), FIXED, "[[load]]\nat = 10.0000015\nweight = 1.0\n")
+    assert "less than length = 10.000001 m" in message

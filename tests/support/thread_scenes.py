@@ -77,9 +77,7 @@ def case(name: str, *analysis: Document, tolerance: float = 1e-8) -> Document:
     else:
         second = free(force=given["F_B"], mass=given.get("M_tip", 0.0))
     output = {"positions": [0.0, 0.5 * given["L"], given["L"]]}
-    return scene(
-        thread, second, *analysis, a=first, stream=stream, output=output, accuracy={"tolerance": tolerance}
-    )
+    return scene(thread, second, *analysis, a=first, stream=stream, output=output, accuracy={"tolerance": tolerance})
 
 
 def along(document: Document, places: Any, tolerance: float | None = None) -> he.Result:

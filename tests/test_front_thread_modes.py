@@ -239,19 +239,12 @@ def test_thresholds_of_a_pinned_beam(share: float, flutter: float) -> None:
     assert (third["omega"] > 0.0) == (share > 0.4)
 
 
-@pytest.mark.parametrize(
-    ("share", "thread", "speed"),
-    [
-        (0.2, {"tension": 2.0}, np.sqrt(np.pi**2 + 2.0)),
-        pytest.param(0.6, {"tension": 2.0}, np.sqrt(np.pi**2 + 2.0), marks=pytest.mark.slow),
-        pytest.param(0.3, {"reactive": "moving_load", "clamp": True}, 2.0 * np.pi, marks=pytest.mark.slow),
-    ],
-)
-def test_divergence_grows_with_tension_and_with_clamps(share: float, thread: dict[str, Any], speed: float) -> None:
-    """And does not depend on the share of the liquid's mass."""
-    document = in_axial_flow(1.0, share, stability(0.98 * speed, 1.02 * speed), **thread)
-    (found,) = thresholds(document | {"accuracy": {"tolerance": 1e-3}})
-    assert_threshold(found, "divergence", speed)
+@pytest.mark.slow
+def test_divergence_grows_with_tension_and_with_clamps() -> None:
+    (found,) = thresholds(in_axial_flow(1.0, 0.2, stability(3.3, 3.6), tension=2.0))
+    assert_threshold(found, "divergence", np.sqrt(np.pi**2 + 2.0))
+    (found,) = thresholds(in_axial_flow(1.0, 0.3, stability(6.1, 6.4), reactive="moving_load", clamp=True))
+    assert_threshold(found, "divergence", 2.0 * np.pi)
 
 
 def test_a_hose_flutters_at_the_speed_of_a_pipe() -> None:

@@ -137,6 +137,14 @@ def test_a_thread_that_would_fold_is_refused() -> None:
         march_back(ThreadLoad(weight=2.0), 1.0, (0.0, 0.0, 5.0), point_forces=[(2.0, (1.0, 0.0, 0.0))])
 
 
+def test_a_march_that_begins_at_its_height() -> None:
+    """A light thread pulled sideways ends at the height of A at once: two heights for a secant are not there."""
+    found = march_back(ThreadLoad(weight=0.0), 1.0, lambda place: np.array([1.0, 0.3 * float(place[0]), 0.0]))
+    assert found.positions[0] == pytest.approx(np.zeros(3), abs=1e-8)
+    direction = found.forces[-1] / np.linalg.norm(found.forces[-1])
+    assert found.positions[-1] == pytest.approx(direction, abs=1e-8)
+
+
 @pytest.mark.parametrize("name", ["S01", "S03"])
 def test_catenaries(name: str) -> None:
     given = inputs(name)

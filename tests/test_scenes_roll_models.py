@@ -6,17 +6,15 @@ from pathlib import Path
 import pytest
 from scene_files import read_written, refused
 
-from hydroelastic.modal.roll.quadratic import LEAST_TOLERANCE
-from hydroelastic.scenes.models.roll import RollScene
-from hydroelastic.scenes.models.roll_checks import LEAST_QUADRATIC_TOLERANCE
+import hydroelastic as he
 
 SHIP = 'kind = "roll"\n[roll]\nnatural_period = 12.0\n'
 WAVE = "[[wave]]\nperiod = 8.0\nslope = 0.1\n"
 
 
-def read(tmp_path: Path, text: str) -> RollScene:
+def read(tmp_path: Path, text: str) -> he.RollScene:
     scene = read_written(tmp_path, text)
-    assert isinstance(scene, RollScene)
+    assert isinstance(scene, he.RollScene)
     return scene
 
 
@@ -89,7 +87,3 @@ def test_what_is_refused(tmp_path: Path, text: str, words: list[str]) -> None:
     (tmp_path / "degrees.csv").write_text("7.0 0.4\n8.0 3.0\n", encoding="utf-8")
     message = refused(tmp_path, text)
     assert all(word in message for word in words), message
-
-
-def test_the_least_tolerance_is_that_of_the_integrator() -> None:
-    assert LEAST_QUADRATIC_TOLERANCE == LEAST_TOLERANCE

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from scene_files import read_written, refused
 
-from hydroelastic.scenes.models.string import StringScene
+import hydroelastic as he
 
 STRING = """kind = "string"
 [string]
@@ -15,9 +15,9 @@ linear_density = 0.5
 SINE = STRING + '[motion]\nkind = "sine"\namplitude = 0.1\nomega = 3.0\n'
 
 
-def read(tmp_path: Path, text: str) -> StringScene:
+def read(tmp_path: Path, text: str) -> he.StringScene:
     scene = read_written(tmp_path, text)
-    assert isinstance(scene, StringScene)
+    assert isinstance(scene, he.StringScene)
     return scene
 
 

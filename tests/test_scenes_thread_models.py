@@ -1,13 +1,14 @@
 """Scenes of threads in a stream: what is read, what is refused, and in which words."""
 
+import re
+from math import nextafter
 from pathlib import Path
 
 import pytest
 from scene_files import read_written
 from scene_files import refused as refused_scene
 
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_checks import MOST_LOADS
+import hydroelastic as he
 
 HEAD = 'kind = "thread"\n'
 THREAD = "[thread]\nlength = 2.0\nweight = 1.0\n"
@@ -20,9 +21,9 @@ MOTION = '[[analysis]]\nkind = "motion"\ntimes = [0.0, 1.0]\n'
 LIMP = "axial_rigidity = 1e6"
 
 
-def read(tmp_path: Path, *parts: str) -> ThreadScene:
+def read(tmp_path: Path, *parts: str) -> he.ThreadScene:
     scene = read_written(tmp_path, HEAD + "".join(parts))
-    assert isinstance(scene, ThreadScene)
+    assert isinstance(scene, he.ThreadScene)
     return scene
 
 
@@ -73,7 +74,7 @@ def test_weight_follows_from_mass_and_diameter(tmp_path: Path) -> None:
         ((THREAD, FIXED, "[[load]]\nat = 2.0\n"), ["load", "at", "2", "less than length = 2 m", "belongs to [ends]"]),
         ((THREAD, FIXED, "[[load]]\nat = 1.0\n" * 2), ["load", "1", "another body is there", "Add the two up"]),
         (
-            (THREAD, FIXED, *(f"[[load]]\nat = {0.01 * (place + 1)}\n" for place in range(MOST_LOADS + 1))),
+            (THREAD, FIXED, *(f"[[load]]\nat = {0.01 * (place + 1)}\n" for place in range(101))),
             ["load", "101", "too many", "up to 100 bodies"],
         ),
         ((THREAD, FIXED, "[output]\npositions = [0.0, 2.5]\n"), ["positions", "2.5", "beyond end B", "length = 2 m"]),
@@ -230,3 +231,18 @@ def test_tables_of_an_end_that_are_refused(tmp_path: Path, rows: list[str], word
     move = "[[analysis.move]]\nend = 'a'\nfile = 'move.csv'\n"
     message = refused(tmp_path, thread("mass = 1.0"), FIXED, MOTION, move)
     assert all(word in message for word in ['"move.csv"', *words]), message
+
+
+@pytest.mark.parametrize("length", [1.0, 1.000000001, nextafter(1.0, 2.0), 0.5])
+def test_the_length_that_is_allowed_is_accepted(tmp_path: Path, length: float) -> None:
+    for chord in (1.0, 13.7, 1e-3):
+        fixed = FIXED.replace("1.0", repr(chord))
+        message = refused(tmp_path, THREAD.replace("2.0", repr(length * chord)), fixed)
+        (allowed,) = re.findall(r"(\S+) m or more, or axial_rigidity", message)
+        assert read(tmp_path, THREAD.replace("2.0", allowed), fixed)
+        assert read(tmp_path, thread(LIMP).replace("2.0", repr(length * chord)), fixed)
+
+
+def test_numbers_that_nearly_agree_are_told_apart(tmp_path: Path) -> None:
+    message = refused(tmp_path, THREAD.replace("2.0", "10.000001"), FIXED, "[[load]]\nat = 10.0000015\nweight = 1.0\n")
+    assert "less than length = 10.000001 m" in message

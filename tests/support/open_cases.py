@@ -80,6 +80,14 @@ def in_dataset(result: he.Result, name: str, **at: Any) -> np.ndarray:
     return np.asarray(values.values)
 
 
+def curves(result: he.Result) -> SimpleNamespace:
+    """Return what the dataset alone has of a spectrum: frequencies, transfer functions and densities by response."""
+    names = [str(one) for one in result.dataset["spectrum_quantity"].values]
+    found = (in_dataset(result, name).T for name in ("spectrum_transfer_function", "response_spectrum"))
+    transfer, density = (dict(zip(names, values, strict=True)) for values in found)
+    return SimpleNamespace(omega=in_dataset(result, "spectrum_omega"), transfer=transfer, density=density)
+
+
 def radiation(scene: Scene, *omega: float, **asked: Any) -> SimpleNamespace:
     """Return added mass, damping and excitation of a scene."""
     asked = {"elastic_modes": 0} | asked if any("shape" not in body for body in scene["body"]) else asked

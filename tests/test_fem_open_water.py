@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from mpi4py import MPI
 from open_cases import Scene, circle, circle_omega, sea, section, stored, two_liquids
-from open_problems import problem_of
 from petsc4py import PETSc
 
+import hydroelastic as he
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
@@ -21,9 +22,15 @@ from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.geometry import PLANE
+from hydroelastic.scenes.open_water.physics import open_water_problem
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
+
+
+def problem_of(scene: Scene, comm: MPI.Comm = MPI.COMM_WORLD) -> OpenWaterProblem:
+    read: Any = he.read(scene)
+    return open_water_problem(read, comm, Stopwatch())
 
 
 def model_of(scene: Scene, omega: float, angle: float | None = None) -> OpenModel:

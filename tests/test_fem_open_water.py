@@ -152,6 +152,19 @@ def test_the_norm_of_a_damped_resonance_is_the_slope_of_the_dynamic_stiffness(re
     assert pair.norm == pytest.approx(slope, rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_how_the_sea_is_cut_changes_nothing(name: str, request: pytest.FixtureRequest) -> None:
+    """What the ends of the absorbing layer reflect would turn with the angle."""
+    model = request.getfixturevalue(name)
+    row = SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1]
+    scene = section(row, 1e-5) if name == "rectangle" else two_liquids(row, 1e-5)
+    other = model_of(scene, row["omega"], angle=0.8 * model.absorbing_layer.angle)
+    found, known = (OpenSolver(one, Stopwatch()).frequency(row["omega"]).hydrodynamic for one in (other, model))
+    assert np.abs(found - known).max() > 0.0
+    # The tolerance.
+    np.testing.assert_allclose(found, known, rtol=0, atol=1e-5 * np.abs(known).max())
+
+
 def test_coordinates_turn_outwards_alone(rectangle: OpenModel) -> None:
     scaling_low, scaling_high = rectangle.basin.bounds
     # Over a bed only sideways.

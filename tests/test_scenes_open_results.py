@@ -18,7 +18,7 @@ CIRCLE: dict[str, Any] = {"kind": "float", "shape": "ellipse", "half_width": 0.5
 CIRCLE |= {"motions": ["heave", "sway", "roll"], "vertical_centre_of_gravity": -0.1}
 PLATE: dict[str, Any] = {"start": 1.0, "length": 3.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 LIQUIDS = [{"density": 1000.0, "depth": inf}, {"density": 800.0, "depth": 2.0}]
-OMEGAS = [2.0, 3.0]
+OMEGAS = [1.0, 1.5]
 ANALYSES: list[dict[str, Any]] = [
     {"kind": "radiation", "omega": [*OMEGAS, inf], "elastic_modes": 1},
     {"kind": "response", "omega": OMEGAS, "positions": 11},
@@ -62,7 +62,7 @@ def test_csv_files_hold_all_numbers(solved: SimpleNamespace) -> None:
     (last,) = (
         row
         for row in rows_of(solved.folder / "response.csv")
-        if (row["analysis"], row["waves_from"], row["wave"], row["omega"]) == ("2", "right", "surface", "3.0")
+        if (row["analysis"], row["waves_from"], row["wave"], row["omega"]) == ("2", "right", "surface", "1.5")
     )
     internal = radiation.waves.index("internal")
     assert float(last["re_transmission_internal"]) == response.transmission[1, surface, internal].real
@@ -100,14 +100,14 @@ def test_the_dataset_has_labels_of_bodies_waves_and_sides_as_capytaine(solved: S
 def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
     """Radiation and response are solved apart, and meet in the equation of motion by the dataset's labels."""
     scene = sea(CIRCLE | {"position": 1.3}, depth=4.0, tolerance=1e-3)
-    asked = ANALYSES[0], *(one | {"omega": [3.0]} for one in ANALYSES[1:])
-    found = answer(scene, *asked).result.dataset.sel(omega=3.0)
+    asked = ANALYSES[0], *(one | {"omega": [1.5]} for one in ANALYSES[1:])
+    found = answer(scene, *asked).result.dataset.sel(omega=1.5)
     force, motions = (
         found[name].sel(complex="re") + 1j * found[name].sel(complex="im") for name in ("excitation_force", "RAO")
     )
     impedance = (
-        -9.0 * (found["inertia_matrix"] + found["added_mass"])
-        - 3.0j * found["radiation_damping"]
+        -2.25 * (found["inertia_matrix"] + found["added_mass"])
+        - 1.5j * found["radiation_damping"]
         + found["hydrostatic_stiffness"]
     ).transpose("influenced_dof", "radiating_dof")
     for side in (0.0, np.pi):

@@ -58,7 +58,7 @@ NOT_RUN = {
     "./hydro bench --problem circle": MINUTES,
     "./hydro bench --quick": MINUTES,
     "./hydro run absorber_at_sea.toml --no-images": (
-        "some seconds; tests/test_fem_solids_in_irregular_waves.py has a spectrum"
+        "some seconds; tests/test_fem_solids_of_revolution.py has a spectrum"
     ),
     "./hydro sweep floating_roof --vary body.1.thickness=0.02:0.05:4 --set accuracy.modes=4": (
         "some seconds; tests/test_scenes_sweep.py sweeps by the command"

@@ -1,189 +1,163 @@
-"""Files of WAMIT, BEMIO, Nemoh and Capytaine, read back by readers written from the formats' descriptions."""
+"""Files of WAMIT, BEMIO, Nemoh and Capytaine of a solution, read back by readers of the formats' descriptions."""
 
-from dataclasses import replace
-from pathlib import Path
+from __future__ import annotations
+
 from types import SimpleNamespace
+from typing import Any
 
 import h5py
 import numpy as np
 import pytest
 import xarray
-from hydrodynamic_bodies import DIGITS, WIDTH, agrees, bodies_of_sections, section_tables, solids_of_revolution
-from hydrodynamic_readers import read_bemio, read_nemoh, read_wamit, rows
+from hydrodynamic_readers import Read, read_bemio, read_nemoh, read_wamit, rows
+from open_cases import answer, sea
 
-from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
-from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
-from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
-from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
-from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies
+DENSITY, GRAVITY, PHASE_AT = 1025.0, 9.8, -0.5
+# Numbers are written with ten digits.
+DIGITS = 1e-8
+BARGE: dict[str, Any] = {"kind": "float", "shape": "rectangle", "half_width": 2.0, "half_height": 1.0, "position": 1.0}
+BARGE |= {"motions": ["heave", "sway", "roll"], "vertical_centre_of_gravity": 0.2, "radius_of_gyration": 1.1}
+BEAM: dict[str, Any] = {
+    "start": 10.0,
+    "sections": [
+        {"length": 2.0, "flexural_rigidity": 3e5, "mass_per_length": 300.0},
+        {"length": 4.0, "flexural_rigidity": 1e5, "mass_per_length": 90.0},
+    ],
+}
+SPAR: dict[str, Any] = {"kind": "float", "shape": "cylinder", "draught": 0.5, "radius": 1.0}
+SPAR |= {"motions": ["heave", "surge", "pitch"], "vertical_centre_of_gravity": -0.3}
+ANALYSES: list[dict[str, Any]] = [
+    {"kind": "radiation", "omega": [1.0, 1.5, 2.0, float("inf")], "elastic_modes": 1},
+    {"kind": "response", "omega": [1.5], "waves_from": "right"},
+    {"kind": "impulse_response", "times": [0.0, 1.0, 2.0], "elastic_modes": 1},
+]
+# Place and sign of each motion of a body in the files: about the y axis x turns to −z, about the x axis y to z.
+OF_SECTION = {"heave": [(2, 1.0)], "sway": [(0, 1.0)], "roll": [(4, -1.0)], "pitch": [(4, -1.0)]}
+OF_SECTION |= {"elastic 1": [(6, 1.0)]}
+OF_SOLID = {"heave": [(2, 1.0)], "surge": [(0, 1.0), (1, 1.0)], "pitch": [(4, -1.0), (3, 1.0)]}
+CASES = {
+    "barge": ([BARGE], 7.0, OF_SECTION, [6]),
+    "barge and beam": ([BARGE, BEAM], 7.0, OF_SECTION, [6, 7]),
+    "spar": ([SPAR], None, OF_SOLID, [6]),
+}
 
 
-@pytest.fixture(scope="module")
-def section() -> SimpleNamespace:
-    return section_tables()
+@pytest.fixture(scope="module", params=CASES)
+def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """A solution with its files, and what they must hold, whole bodies in SI units."""
+    bodies, width, places, counts = CASES[request.param]
+    export = {"formats": ["wamit", "bemio", "nemoh", "capytaine"]} | ({"width": width} if width else {})
+    keys = {"sea": {"phase_at": PHASE_AT, "gravity": GRAVITY}, "export": export, "density": DENSITY}
+    analyses = ANALYSES[: 2 if width else 3]
+    keys["export"] = export | ({"formats": ["wamit", "nemoh", "capytaine"]} if width else {})
+    found = answer(sea(*bodies, depth=12.0, tolerance=1e-1, **keys), *analyses)
+    folder = tmp_path_factory.mktemp("export") / "result"
+    found.result.save(folder, images=None)
+    (table,) = found.radiation
+    size, starts = sum(counts), np.cumsum([0, *counts])
+    # Columns are the motions of the table; a solid moves and is pushed alike along y, where waves along x do not push.
+    along, across = np.zeros((size, len(table.dofs))), np.zeros((size, len(table.dofs)))
+    for column, dof in enumerate(table.dofs):
+        body, name = (int(dof[5]) - 1, dof[8:]) if dof.startswith("body_") else (0, dof)
+        for part, (place, sign) in zip((along, across), places[name], strict=False):
+            part[starts[body] + place, column] = sign
 
+    if BEAM in bodies:
+        # Force on x − x_G of that on √3 (2x/l − 1), which is what pitch of the table is, and on heave.
+        centre, half = 10.0 + (600.0 * 1.0 + 360.0 * 4.0) / 960.0, 3.0
+        heave, pitch = (table.dofs.index(f"body_2__{name}") for name in ("heave", "pitch"))
+        along[starts[1] + 4, [heave, pitch]] = -(10.0 + half - centre), -half / np.sqrt(3.0)
 
-@pytest.fixture(scope="module")
-def bodies(section: SimpleNamespace) -> WholeBodies:
-    return bodies_of_sections(section)
+    def whole(matrix: np.ndarray) -> np.ndarray:
+        """Heave is in both parts, and once in the sum; other motions are in one."""
+        return (width or 1.0) * np.asarray(along @ matrix @ along.T + across @ matrix @ across.T)
 
-
-@pytest.fixture(scope="module")
-def solids(section: SimpleNamespace) -> WholeBodies:
-    return solids_of_revolution(section)
-
-
-def test_a_section_of_some_width_has_surge_heave_and_pitch(section: SimpleNamespace, bodies: WholeBodies) -> None:
-    heave, pitch, surge = 2, 4, 6
-    given = section.radiation
-    assert np.flatnonzero(bodies.modelled).tolist() == [heave, pitch, surge]
-    np.testing.assert_array_equal(bodies.omega, [0.5, 1.0, 1.5])
-    # Pitch lifts what roll lowers, so that coupling with it changes its sign.
-    mass = bodies.added_mass[0]
-    assert mass[heave, surge] == WIDTH * given.added_mass[1, 0, 2]
-    assert mass[heave, pitch] == -WIDTH * given.added_mass[1, 0, 1]
-    assert mass[pitch, pitch] == WIDTH * given.added_mass[1, 1, 1]
-    assert bodies.limits[0] is None
-    assert bodies.limits[1] is not None
-    assert bodies.limits[1][surge, pitch] == -WIDTH * given.added_mass[2, 2, 1]
-    np.testing.assert_array_equal(bodies.excitation_force[2, 1, pitch], -WIDTH * given.excitation_force[0, 0, 1, 1])
-    assert bodies.motions[0].direction == 180.0
-    np.testing.assert_array_equal(
-        bodies.motions[0].amplitudes[0, [heave, pitch]], section.response.amplitudes[0, 0, :2] * [1.0, -1.0]
+    force = (width or 1.0) * table.excitation_force[:3, 0] @ along.T
+    return SimpleNamespace(
+        folder=folder / "export",
+        size=size,
+        counts=counts,
+        table=table,
+        along=along,
+        mass=np.array([whole(one) for one in table.added_mass]),
+        damping=np.array([whole(one) for one in table.radiation_damping[:3]]),
+        stiffness=whole(table.stiffness),
+        force=force,
+        width=width,
+        found=found,
     )
 
 
-def test_bodies_at_rest_are_relative_to_where_phases_are(bodies: WholeBodies) -> None:
-    barge, disc = bodies.bodies
-    np.testing.assert_allclose(barge.centre_of_gravity, (1.5, 0.0, 0.2), atol=1e-12)
-    np.testing.assert_allclose(barge.centre_of_buoyancy, (1.5, 0.0, -0.5), atol=1e-12)
-    assert barge.volume == pytest.approx(4.0 * WIDTH, rel=1e-12)
-    assert disc.waterplane_area == pytest.approx(2.0 * WIDTH, rel=1e-12)
+def agrees(read: Read, written: SimpleNamespace) -> None:
+    """In the scales of WAMIT, with e^{iωt} instead of e^{−iωt}."""
+    omega = np.array([1.0, 1.5, 2.0])
+    np.testing.assert_allclose(read.omega, omega, rtol=DIGITS)
+    scale = np.abs(written.mass).max() / DENSITY
+    np.testing.assert_allclose(read.added_mass, written.mass[:3] / DENSITY, rtol=DIGITS, atol=DIGITS * scale)
+    per_frequency = written.damping / (DENSITY * omega[:, None, None])
+    np.testing.assert_allclose(read.damping, per_frequency, rtol=DIGITS, atol=DIGITS * scale)
+    force = np.conj(written.force) / (DENSITY * GRAVITY)
+    np.testing.assert_allclose(read.force, force, rtol=DIGITS, atol=DIGITS * np.abs(force).max())
 
 
-def test_wamit_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
-    slow = np.full((12, 12), 5.0)
-    slow[2, 2] = np.inf
-    known = replace(bodies, limits=(slow, bodies.limits[1]))
-    write_wamit(known, tmp_path, "barge")
-    read, limits, stiffness = read_wamit(tmp_path, "barge", 12)
-    agrees(read, bodies)
-    # PER = 0 is the infinite frequency, PER < 0 the infinite period; what is infinite there is left out.
-    assert set(limits) == {0.0, -1.0}
-    assert bodies.limits[1] is not None
-    np.testing.assert_allclose(limits[0.0], bodies.limits[1] / bodies.density, rtol=DIGITS)
-    assert limits[-1.0][4, 6] == pytest.approx(5.0 / bodies.density, rel=DIGITS)
-    assert limits[-1.0][2, 2] == 0.0
-    np.testing.assert_allclose(stiffness, bodies.stiffness / (bodies.density * bodies.gravity), rtol=DIGITS)
-    motions = rows(tmp_path / "barge.4")
-    np.testing.assert_allclose(motions[:, 0], 2.0 * np.pi, rtol=DIGITS)
+def test_wamit_is_read_back(written: SimpleNamespace) -> None:
+    read, limits, stiffness = read_wamit(written.folder, "bodies", written.size)
+    agrees(read, written)
+    # PER = 0 is the infinite frequency.
+    scale = np.abs(written.mass).max() / DENSITY
+    np.testing.assert_allclose(limits[0.0], written.mass[3] / DENSITY, rtol=DIGITS, atol=DIGITS * scale)
+    if len(written.counts) == 1:
+        known = written.stiffness / (DENSITY * GRAVITY)
+        np.testing.assert_allclose(stiffness, known, rtol=DIGITS, atol=DIGITS * np.abs(known).max())
+    motions = rows(written.folder / "bodies.4")
+    np.testing.assert_allclose(motions[:, 0], 2.0 * np.pi / 1.5, rtol=DIGITS)
     np.testing.assert_array_equal(motions[:, 1], 180.0)
-    expected = np.conj(bodies.motions[0].amplitudes[0][motions[:, 2].astype(int) - 1])
-    np.testing.assert_allclose(motions[:, 5] + 1j * motions[:, 6], expected, rtol=DIGITS)
+    (response,) = written.found.response
+    own = [response.dofs.index(dof) for dof in written.table.dofs]
+    moved = np.linalg.pinv(written.along).T @ response.amplitudes[0, 0, own]
+    known = np.conj(moved)[motions[:, 2].astype(int) - 1]
+    np.testing.assert_allclose(motions[:, 5] + 1j * motions[:, 6], known, rtol=DIGITS, atol=DIGITS)
 
 
-def test_bemio_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
-    path = tmp_path / "barge.h5"
-    write_bemio(bodies, path)
-    agrees(read_bemio(path, 2), bodies)
+def test_bemio_is_read_back(written: SimpleNamespace) -> None:
+    if written.width:
+        assert not list(written.folder.glob("*.h5"))
+        return
+    (path,) = written.folder.glob("*.h5")
+    agrees(read_bemio(path, 1), written)
     with h5py.File(path) as file:
-        assert file["simulation_parameters/scaled"][0, 0] == 0.0
         assert file["simulation_parameters/water_depth"][0, 0] == 12.0
-        np.testing.assert_allclose(file["simulation_parameters/wave_dir"][:, 0], [0.0, 180.0])
-        second = file["body2"]
-        assert second["properties/name"][()] == b"body_2"
-        assert second["properties/dof_start"][0, 0] == 7.0
-        np.testing.assert_allclose(second["properties/cg"][:, 0], bodies.bodies[1].centre_of_gravity)
-        coefficients = second["hydro_coeffs"]
-        assert coefficients["added_mass/all"].shape == (6, 12, 3)
-        assert coefficients["excitation/re"].shape == (6, 2, 3)
-        assert bodies.limits[1] is not None
-        np.testing.assert_allclose(coefficients["added_mass/inf_freq"][:], bodies.limits[1][6:] / bodies.density)
-        for part in ("", "scattering/", "froude-krylov/"):
-            force = {name: coefficients[f"excitation/{part}{name}"][:] for name in ("re", "im", "mag", "phase")}
-            np.testing.assert_allclose(force["mag"] * np.exp(1j * force["phase"]), force["re"] + 1j * force["im"])
-        response = coefficients["radiation_damping/impulse_response_fun"]
-        assert bodies.impulse_response is not None
-        np.testing.assert_allclose(response["K"][0, 4], bodies.impulse_response[:, 6, 4] / bodies.density)
-        np.testing.assert_allclose(response["t"][:, 0], np.linspace(0.0, 4.0, 9))
-        # (1/π) ∫ Re (X e^{iωt}) dω with X between three frequencies on straight lines, at t = 0.
-        excitation = coefficients["excitation/impulse_response_fun"]
-        lags = excitation["t"][:, 0]
-        np.testing.assert_allclose(lags, np.linspace(-4.0, 4.0, 17))
-        real = coefficients["excitation/re"][0, 1]
-        expected = 0.5 * (0.5 * (real[0] + real[1]) + 0.5 * (real[1] + real[2])) / np.pi
-        np.testing.assert_allclose(excitation["f"][0, 1, 8], expected, rtol=1e-12)
-        omega = np.linspace(0.5, 1.5, 20001)
-        force = np.interp(omega, bodies.omega, coefficients["excitation/re"][0, 1]) + 1j * np.interp(
-            omega, bodies.omega, coefficients["excitation/im"][0, 1]
-        )
-        expected = np.trapezoid((force * np.exp(2j * omega)).real, omega) / np.pi
-        np.testing.assert_allclose(excitation["f"][0, 1, 12], expected, rtol=1e-4)
+        (rest,) = written.found.summary["bodies"]
+        x, height = rest["centre_of_gravity"]
+        cg = file["body1/properties/cg"][:, 0]
+        np.testing.assert_allclose(cg, (x - PHASE_AT, 0.0, height), atol=1e-12)
+        response = file["body1/hydro_coeffs/radiation_damping/impulse_response_fun"]
+        (impulse,) = written.found.impulse_response
+        heave = impulse.dofs.index("heave")
+        known = (written.width or 1.0) * impulse.impulse_response[:, heave, heave] / DENSITY
+        np.testing.assert_allclose(response["K"][2, 2], known, rtol=1e-12)
 
 
-def test_nemoh_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
-    write_nemoh(bodies, tmp_path)
-    agrees(read_nemoh(tmp_path, bodies.density, bodies.gravity), bodies)
-    settings = (tmp_path / "Nemoh.cal").read_text().splitlines()
-    assert [line.split()[:3] for line in settings if "Number of wave" in line] == [
-        ["3", "0.5", "1.5"],
-        ["2", "0.0", "180.0"],
-    ]
-    places = (tmp_path / "mesh" / "Hydrostatics_1.dat").read_text().splitlines()
-    np.testing.assert_allclose([float(line.split()[6]) for line in places[:3]], bodies.bodies[1].centre_of_gravity)
-    assert float(places[3].split()[2]) == pytest.approx(bodies.bodies[1].volume, rel=DIGITS)
-    np.testing.assert_allclose(rows(tmp_path / "mesh" / "KH_0.dat"), bodies.stiffness[:6, :6], rtol=DIGITS)
+def test_nemoh_is_read_back(written: SimpleNamespace) -> None:
+    (folder,) = (path.parent for path in written.folder.rglob("Nemoh.cal"))
+    agrees(read_nemoh(folder, DENSITY, GRAVITY), written)
+    known = written.stiffness[:6, :6]
+    found = rows(folder / "mesh" / "KH_0.dat" if len(written.counts) > 1 else folder / "mesh" / "KH.dat")
+    np.testing.assert_allclose(found, known, rtol=DIGITS, atol=DIGITS * np.abs(known).max())
 
 
-def test_capytaine_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
-    path = tmp_path / "barge.nc"
-    write_capytaine(bodies, path)
-    dataset = xarray.load_dataset(path)
-    assert dataset.radiating_dof.values.tolist() == ["body_1__Heave", "body_1__Pitch", "body_2__Surge"]
-    one = {"radiating_dof": "body_2__Surge", "influenced_dof": "body_1__Pitch"}
-    np.testing.assert_array_equal(dataset.added_mass.sel(one), bodies.added_mass[:, 4, 6])
-    force = dataset.excitation_force.sel(influenced_dof="body_1__Pitch")
-    np.testing.assert_array_equal(
-        force.sel(complex="re") + 1j * force.sel(complex="im"), bodies.excitation_force[:, :, 4]
-    )
-
-
-def test_a_solid_of_revolution_has_sway_and_roll_as_surge_and_pitch(
-    section: SimpleNamespace, solids: WholeBodies
-) -> None:
-    heave, roll, pitch, surge, sway = 2, 3, 4, 6, 7
-    given = section.radiation
-    assert np.flatnonzero(solids.modelled).tolist() == [heave, roll, pitch, surge, sway]
-    mass = solids.added_mass[0]
-    assert mass[heave, heave] == given.added_mass[1, 0, 0]
-    assert mass[roll, roll] == mass[pitch, pitch] == given.added_mass[1, 1, 1]
-    # About the y axis x turns to −z, about the x axis y turns to z.
-    assert mass[surge, pitch] == -given.added_mass[1, 2, 1]
-    assert mass[sway, roll] == given.added_mass[1, 2, 1]
-    assert mass[sway, pitch] == mass[surge, roll] == mass[heave, pitch] == 0.0
-    # Waves along x.
-    np.testing.assert_array_equal(solids.excitation_force[:, :, [roll, sway]], 0.0)
-    np.testing.assert_array_equal(solids.excitation_force[2, 1, pitch], -given.excitation_force[0, 0, 1, 1])
-    cylinder, ring = solids.bodies
-    assert cylinder.volume == pytest.approx(0.5 * np.pi, rel=1e-12)
-    assert ring.waterplane_area == pytest.approx(12.0 * np.pi, rel=1e-12)
-    assert cylinder.centre_of_gravity == pytest.approx((0.5, 0.0, -0.3))
-    assert solids.stiffness.shape == solids.inertia.shape == (12, 12)
-
-
-def test_files_of_solids_are_read_back(solids: WholeBodies, tmp_path: Path) -> None:
-    write_wamit(solids, tmp_path, "solids")
-    agrees(read_wamit(tmp_path, "solids", 12)[0], solids)
-    write_bemio(solids, tmp_path / "solids.h5")
-    agrees(read_bemio(tmp_path / "solids.h5", 2), solids)
-    write_capytaine(solids, tmp_path / "solids.nc")
-    with xarray.open_dataset(tmp_path / "solids.nc") as dataset:
-        assert dataset.radiating_dof.values.tolist() == [
-            *("body_1__Heave", "body_1__Roll", "body_1__Pitch", "body_2__Surge", "body_2__Sway")
-        ]
-        own = np.flatnonzero(solids.modelled)
-        np.testing.assert_array_equal(
-            dataset.added_mass.transpose("omega", "influenced_dof", "radiating_dof"),
-            solids.added_mass[:, own[:, None], own],
-        )
-        assert dataset.hydrostatic_stiffness.shape == (5, 5)
+def test_capytaine_finds_the_motions_of_the_response(written: SimpleNamespace) -> None:
+    """By the labels of its dataset, in the lines of its own `rao`."""
+    (path,) = written.folder.glob("*.nc")
+    found = xarray.load_dataset(path).sel(omega=1.5)
+    force = found.excitation_force.sel(complex="re") + 1j * found.excitation_force.sel(complex="im")
+    stiffness = found.hydrostatic_stiffness + found.get("bending_stiffness", 0.0)
+    impedance = -2.25 * (found.inertia_matrix + found.added_mass) - 1.5j * found.radiation_damping + stiffness
+    impedance = impedance.transpose("influenced_dof", "radiating_dof")
+    names = [str(one) for one in found.radiating_dof.values]
+    moved = np.linalg.solve(impedance.values, force.sel(wave_direction=np.pi).values.ravel())
+    (response,) = written.found.response
+    heave = next(place for place, name in enumerate(names) if name.endswith("Heave"))
+    known = response.amplitudes[0, 0, next(place for place, dof in enumerate(response.dofs) if dof.endswith("heave"))]
+    # The tolerance of both analyses; shapes beyond the first are left out.
+    assert moved[heave] == pytest.approx(known, rel=5e-2)

@@ -1,4 +1,4 @@
-"""Spectra of waves and statistics of responses, against closed forms."""
+"""Spectra of waves, their sums, and statistics of responses, against closed forms."""
 
 from math import gamma, log, pi, sqrt
 
@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from hydroelastic.physics.irregular_waves import moments, statistics
+from hydroelastic.physics.wave_components import wave_components
 from hydroelastic.physics.wave_spectrum import PeakedSpectrum, TabulatedSpectrum
 
 PM = PeakedSpectrum(height=3.0, period=9.0)
@@ -65,3 +66,25 @@ def test_errors_of_transfer_functions_and_missing_waves_are_told() -> None:
     assert told.transfer_error[0] == pytest.approx(1e-3, rel=1e-2)
     missing = 1.0 - told.moments[0, 0] / (9.0 / 16.0)
     assert 0.5 * missing <= told.truncation_error[0] <= 0.7 * missing
+
+
+SUMMED = PeakedSpectrum(height=2.0, period=8.0, enhancement=3.3)
+
+
+def test_components_have_the_energy_of_the_spectrum() -> None:
+    omega, amplitude, _ = wave_components(SUMMED, 200, 1)
+    # Beyond its band the spectrum has 0.3 % of its energy, Hs²/16.
+    assert (0.5 * amplitude**2).sum() == pytest.approx(SUMMED.significant_height**2 / 16.0, rel=4e-3)
+    # Of the second moment, whose tail is longer, the middles of 200 parts miss a little more.
+    fine = np.linspace(*SUMMED.band, 20001)
+    second = np.trapezoid(SUMMED.density(fine) * fine**2, fine)
+    assert (0.5 * amplitude**2 * omega**2).sum() == pytest.approx(second, rel=5e-3)
+    assert np.all(np.diff(omega) > 0.0)
+
+
+def test_a_seed_tells_the_phases() -> None:
+    one, same, other = (wave_components(SUMMED, 50, seed)[2] for seed in (3, 3, 4))
+    np.testing.assert_array_equal(one, same)
+    assert np.abs(one - other).max() > 1.0
+    # Uniform from 0 to 2π: the mean of 50 lies within four standard deviations, 1.8/√50.
+    assert abs(one.mean() - np.pi) < 4.0 * 1.8 / np.sqrt(50.0)

@@ -1,11 +1,12 @@
-"""Volumes and motions of solids beside closed forms."""
+"""Volumes and motions of solids beside closed forms; forces from outside in other units."""
 
 from math import pi
 
 import numpy as np
 import pytest
-from solids_at_sea import problem_of
 
+from hydroelastic.physics.attachments import Attachment
+from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.solids import solid_of_revolution
 
@@ -42,12 +43,16 @@ def test_rotations_are_right_handed_about_the_centre_of_mass() -> None:
     np.testing.assert_allclose(box.displacement("yaw", beside), np.cross([0.0, 0.0, 1.0], np.eye(3)).T, atol=1e-15)
 
 
-@pytest.mark.parametrize("draught", [0.3, 0.6, 1.0, 1.01, 1.2, 1.4, 1.7])
-def test_a_sphere_on_the_axis_keeps_both_halves_in_other_units(draught: float) -> None:
-    """The contact points are each other's mirror images but for rounding, whatever the draught."""
-    hull = problem_of([{"shape": "sphere", "radius": 1.0, "draught": draught}], 5.0, 1e-3).tank.scaled().bodies[0].hull
-    assert hull is not None
-    left, right = hull.below[0].start, hull.below[-1].end
-    assert left == (-right[0], right[1])
-    assert hull.below[0].end == hull.below[-1].start
-    assert hull.below[0].end[0] == 0.0
+NOTHING = ((0.0, 0.0, 0.0),) * 3
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_the_power_of_drag_does_not_depend_on_units(dimensions: int) -> None:
+    drag, speeds = (3.0, 4.0, 5.0), np.array([0.7, 0.4, 0.2])
+    attachment = Attachment(body=0, point=(0.0, 0.0), stiffness=NOTHING, damping=NOTHING, drag=drag)
+    units = Scales(length=2.0, density=1000.0, gravity=9.81, dimensions=dimensions)
+    # Heave and sway in m/s, roll in rad/s; power in units of energy times frequency.
+    scaled = speeds / np.array([units.length, units.length, 1.0]) / units.frequency
+    energy = units.density * units.gravity * units.volume * units.length
+    found = attachment.scaled(units).drag * scaled**3 * (energy * units.frequency)
+    np.testing.assert_allclose(found, np.array(drag) * speeds**3, rtol=1e-12)

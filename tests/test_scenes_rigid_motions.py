@@ -8,32 +8,28 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, null_space
 
+import hydroelastic as he
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.models.tank_parts import Liquid, Tank
-from hydroelastic.scenes.tank.check_hints import hints
 
 
-def beam(**changes: Any) -> Beam:
+def beam(**changes: Any) -> he.Beam:
     values: dict[str, Any] = {"start": 0.5, "length": 3.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
-    return Beam(**(values | {"hydrostatic": False} | changes))
+    return he.Beam(**(values | {"hydrostatic": False} | changes))
 
 
-def floating(*motions: str, **changes: Any) -> Float:
+def floating(*motions: str, **changes: Any) -> he.Float:
     values: dict[str, Any] = {"shape": "wedge", "position": 5.0, "half_width": 1.0, "half_height": 0.8}
-    return Float(**(values | {"motions": motions or ("heave",)} | changes))
+    return he.Float(**(values | {"motions": motions or ("heave",)} | changes))
 
 
-def scene(*bodies: Beam | Float, top: str, upper: float | None) -> TankScene:
-    above = () if upper is None else (Liquid(density=upper, depth=3),)
-    return TankScene(
-        tank=Tank(length=10, top=top),  # type: ignore[arg-type]
-        liquid=(Liquid(density=1000, depth=5), *above),
+def scene(*bodies: he.Beam | he.Float, top: str, upper: float | None) -> he.TankScene:
+    above = () if upper is None else (he.Liquid(density=upper, depth=3),)
+    return he.TankScene(
+        tank=he.Tank(length=10, top=top),  # type: ignore[arg-type]
+        liquid=(he.Liquid(density=1000, depth=5), *above),
         body=bodies,
     )
 
@@ -50,7 +46,7 @@ KEEL: dict[str, Any] = {
 ALL = ("heave", "sway", "roll")
 
 
-def neutral(*motions: str) -> Float:
+def neutral(*motions: str) -> he.Float:
     """The keel with its centre of mass where it is neutral, with or without heave that follows its roll."""
     rest = placed_float(scene(floating(*motions, **KEEL), top="free", upper=None), 0).hydrostatics
     stiffness = rest.free_roll_stiffness if "heave" in motions else rest.roll_stiffness
@@ -58,7 +54,7 @@ def neutral(*motions: str) -> Float:
     return floating(*motions, **KEEL, centre_of_mass=height)
 
 
-def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
+def statics(given: he.TankScene) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness and volumes of all rigid motions and of the mean elevation of each level, in units of the tank.
 
     Rows of the second matrix are the volumes that must be kept: of the lower liquid, and of the upper one unless it may
@@ -81,7 +77,7 @@ def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
 
     for index, body in enumerate(given.body):
         level = given.level_of(body)
-        if isinstance(body, Beam):
+        if isinstance(body, he.Beam):
             assert not body.hydrostatic
             add(level, np.zeros((2, 2)), [body.length, 0.0])
             continue
@@ -124,7 +120,7 @@ def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
         (COVER, LOOSE.model_copy(update={"at": "surface"})),
     ],
 )
-def test_zero_modes_are_those_of_statics(bodies: tuple[Beam | Float, ...], upper: float | None, top: str) -> None:
+def test_zero_modes_are_those_of_statics(bodies: tuple[he.Beam | he.Float, ...], upper: float | None, top: str) -> None:
     if upper != 800.0:
         bodies = tuple(body.model_copy(update={"at": None}) for body in bodies)
         if COVER in bodies:
@@ -132,7 +128,7 @@ def test_zero_modes_are_those_of_statics(bodies: tuple[Beam | Float, ...], upper
     given, refusal = None, ""
     try:
         given = scene(*bodies, top=top, upper=upper)
-    except SceneError as error:
+    except he.SceneError as error:
         refusal = str(error)
     if given is None:
         assert "nothing oscillates" in refusal
@@ -143,7 +139,6 @@ def test_zero_modes_are_those_of_statics(bodies: tuple[Beam | Float, ...], upper
     energies = np.abs(np.linalg.eigvalsh(free.T @ stiffness @ free))
     expected = int((energies < 1e-10).sum())
     assert zero_mode_count(physical_tank(given)) == expected
-    assert any("zero" in hint for hint in hints(given)) == bool(expected)
     if given.top != "free" and upper is None and not given.beams:
         assert mode_count(physical_tank(given)) == len(energies) - expected
     else:

@@ -1,25 +1,19 @@
-"""Scenes of open water whose answers are stored in `reference/`, and their solutions."""
+"""Scenes of open water whose answers are stored in `reference/`, and the answers of the solver as arrays."""
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
-from open_tables import open_scene
 
-from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
-from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.stopwatch import Stopwatch
+import hydroelastic as he
 from hydroelastic.modal.liquid.two_layer import TwoLayers
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.physics import open_water_problem
 
 FOLDER = Path(__file__).parents[1] / "reference"
 DENSITY = 1000.0
@@ -31,6 +25,10 @@ SLOW = pytest.mark.slow
 # error, and over a bed 0.71 of it at the worst.
 TOO_SMALL = 1.5
 
+Scene = dict[str, Any]
+_COMPLEX = {"excitation_force", "froude_krylov_force", "diffraction_force", "reflection", "transmission"}
+_COMPLEX |= {"amplitudes", "partial_waves", "deflection", "bending_moment", "shear_force", "body_amplitudes"}
+
 
 def stored(name: str) -> dict[str, Any]:
     """Return a file of references."""
@@ -40,7 +38,7 @@ def stored(name: str) -> dict[str, Any]:
 
 def complex_of(values: Any) -> np.ndarray:
     """Return pairs of real and imaginary parts as complex numbers."""
-    array = np.array(values)
+    array = np.array(values, dtype=float)
     return np.asarray(array[..., 0] + 1j * array[..., 1])
 
 
@@ -49,37 +47,88 @@ def numbered(rows: list[dict[str, Any]]) -> list[Any]:
     return [pytest.param(row, id=str(number)) for number, row in enumerate(rows, 1)]
 
 
-def problem_of(scene: TankScene, comm: MPI.Comm = MPI.COMM_WORLD) -> OpenWaterProblem:
-    """Return the open water of a scene."""
-    return open_water_problem(scene, comm, Stopwatch())
+def arrays(table: Mapping[str, Any]) -> SimpleNamespace:
+    """Return a table of the summary with its numbers as arrays; `null` is NaN."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            found[key] = arrays(value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            found[key] = [arrays(one) for one in value]
+        elif value is not None and (key in _COMPLEX or (key == "omega" and "residuals" in table)):
+            found[key] = complex_of(value) if value else np.zeros(0, dtype=complex)
+        elif isinstance(value, list) and value and key not in ("dofs", "labels", "waves"):
+            found[key] = np.array(value, dtype=float)
+        else:
+            found[key] = value
+    return SimpleNamespace(**found)
 
 
-def radiation(
-    scene: TankScene, *omega: float, elastic_modes: int = 0, comm: MPI.Comm = MPI.COMM_WORLD
-) -> RadiationSolution:
+def answer(scene: Scene, *analyses: Scene, **keys: Any) -> SimpleNamespace:
+    """Solve a scene, with these analyses and changed keys if there are any; the tables of its summary as `arrays`."""
+    result = he.solve(scene | ({"analysis": list(analyses)} if analyses else {}) | keys)
+    kinds = ("radiation", "response", "resonance", "decay", "spectrum", "impulse_response", "motion", "bodies")
+    tables = {kind: [arrays(table) for table in result.summary[kind]] for kind in kinds}
+    return SimpleNamespace(result=result, status=result.summary["status"], summary=result.summary, **tables)
+
+
+def in_dataset(result: he.Result, name: str, **at: Any) -> np.ndarray:
+    """Return a variable of the dataset, complex if it has both parts."""
+    values = result.dataset[name].sel(**at)
+    if "complex" in values.dims:
+        values = values.sel(complex="re") + 1j * values.sel(complex="im")
+    return np.asarray(values.values)
+
+
+def curves(result: he.Result) -> SimpleNamespace:
+    """Return what the dataset alone has of a spectrum: frequencies, transfer functions and densities by response."""
+    names = [str(one) for one in result.dataset["spectrum_quantity"].values]
+    found = (in_dataset(result, name).T for name in ("spectrum_transfer_function", "response_spectrum"))
+    transfer, density = (dict(zip(names, values, strict=True)) for values in found)
+    return SimpleNamespace(omega=in_dataset(result, "spectrum_omega"), transfer=transfer, density=density)
+
+
+def radiation(scene: Scene, *omega: float, **asked: Any) -> SimpleNamespace:
     """Return added mass, damping and excitation of a scene."""
-    return solve_radiation(problem_of(scene, comm), RadiationRequest(omega=omega, elastic_modes=elastic_modes))
+    asked = {"elastic_modes": 0} | asked if any("shape" not in body for body in scene["body"]) else asked
+    (table,) = answer(scene, {"kind": "radiation", "omega": list(omega)} | asked).radiation
+    return table
 
 
-def response(
-    scene: TankScene, *omega: float, waves_from: Literal["left", "right"] = "left", positions: int = 11
-) -> ResponseSolution:
+def response(scene: Scene, *omega: float, **asked: Any) -> SimpleNamespace:
     """Return what a scene does in waves."""
-    asked = ResponseRequest(omega=omega, waves_from=waves_from, positions=positions)
-    return solve_response(problem_of(scene), asked)
+    (table,) = answer(scene, {"kind": "response", "omega": list(omega), "positions": 11} | asked).response
+    return table
 
 
-def hydrodynamic(solution: RadiationSolution) -> np.ndarray:
+def hydrodynamic(table: SimpleNamespace) -> np.ndarray:
     """Return a + ib/ω, shape (frequencies, motions, motions), for finite ω > 0."""
-    table = solution.table
     return np.asarray(table.added_mass + 1j * table.radiation_damping / table.omega[:, None, None])
 
 
-def circle(tolerance: float, *motions: str, **more: Any) -> TankScene:
+def open_scene(body: Scene, *, liquids: Any = None, tolerance: float, length: float = 10.0, **tank: Any) -> Scene:
+    """Return a scene with open ends; deep water unless liquids are given."""
+    return {
+        "kind": "tank",
+        "tank": {"length": length, "ends": "open"} | tank,
+        "liquid": list(liquids or [{"density": DENSITY, "depth": math.inf}]),
+        "body": [body],
+        "accuracy": {"tolerance": tolerance},
+    }
+
+
+def sea(*bodies: Scene, depth: float = math.inf, tolerance: float, density: float = DENSITY, **keys: Any) -> Scene:
+    """Return a scene of the sea."""
+    water = [{"density": density, "depth": depth}]
+    return {"kind": "sea", "liquid": water, "body": list(bodies), "accuracy": {"tolerance": tolerance}} | keys
+
+
+def circle(tolerance: float, *motions: str, body: Scene | None = None, **more: Any) -> Scene:
     """Return a half-immersed circle in deep water."""
-    body = {"kind": "float", "shape": "ellipse", "half_width": RADIUS, "half_height": RADIUS, "position": 5.0}
-    moving = body | {"motions": motions or ("heave", "sway")} | more.pop("body", {})
-    return open_scene(moving, analyses=[], accuracy={"tolerance": tolerance}, **more)
+    round_one = {"kind": "float", "shape": "ellipse", "half_width": RADIUS, "half_height": RADIUS, "position": 5.0}
+    return open_scene(
+        round_one | {"motions": list(motions or ("heave", "sway"))} | (body or {}), tolerance=tolerance, **more
+    )
 
 
 def circle_omega(ka: float) -> float:
@@ -87,7 +136,7 @@ def circle_omega(ka: float) -> float:
     return math.sqrt(ka * GRAVITY / RADIUS)
 
 
-def section(row: dict[str, Any], tolerance: float, position: float = 4.0) -> TankScene:
+def section(row: dict[str, Any], tolerance: float, position: float = 4.0) -> Scene:
     """Return a stored polygonal section; above water it goes on with vertical sides."""
     left, *_, right = corners = row["corners"]
     depth = math.inf if row["depth"] is None else row["depth"]
@@ -102,17 +151,17 @@ def section(row: dict[str, Any], tolerance: float, position: float = 4.0) -> Tan
         "unstable": "solve",
     }
     liquids = ({"density": DENSITY, "depth": depth},)
-    return open_scene(body, liquids=liquids, analyses=[], accuracy={"tolerance": tolerance})
+    return open_scene(body, liquids=liquids, tolerance=tolerance)
 
 
-def plate(row: dict[str, Any], tolerance: float, start: float = 0.0, *, turned: bool = False) -> TankScene:
+def plate(row: dict[str, Any], tolerance: float, start: float = 0.0, *, turned: bool = False) -> Scene:
     """Return a stored plate; turned, its right end is on the left."""
     depth = math.inf if row["depth"] is None else row["depth"]
     liquids = ({"density": row["density"], "depth": depth},)
     segments, joints = (part[::-1] if turned else part for part in (row["segments"], row["joints"]))
     body = beam(segments, joints) | {"start": start}
     length = start + sum(segment["length"] for segment in segments)
-    return open_scene(body, liquids=liquids, length=2 * length, analyses=[], accuracy={"tolerance": tolerance})
+    return open_scene(body, liquids=liquids, length=2 * length, tolerance=tolerance)
 
 
 def beam(segments: list[dict[str, float]], joints: list[float | None]) -> dict[str, Any]:
@@ -132,7 +181,7 @@ def beam(segments: list[dict[str, float]], joints: list[float | None]) -> dict[s
     return {"sections": parts, "joints": turning}
 
 
-def two_liquids(row: dict[str, Any], tolerance: float, start: float = 0.0) -> TankScene:
+def two_liquids(row: dict[str, Any], tolerance: float, start: float = 0.0) -> Scene:
     """Return a stored plate on one of the levels of two liquids."""
     liquids = tuple(
         {"density": density, "depth": depth} for density, depth in zip(row["densities"], row["depths"], strict=True)
@@ -143,8 +192,7 @@ def two_liquids(row: dict[str, Any], tolerance: float, start: float = 0.0) -> Ta
         liquids=liquids,
         length=start + 2 * row["plate"]["length"],
         top="free" if row["top"] == "free" else "rigid",
-        analyses=[],
-        accuracy={"tolerance": tolerance},
+        tolerance=tolerance,
     )
 
 
@@ -162,9 +210,7 @@ THIN_LIQUIDS: dict[str, TwoLayers] = {
 """Liquids in which thin floats have closed forms; bed and lid of the channel are not at the same distance."""
 
 
-def slender(
-    shape: str, liquids: str, tolerance: float, *, slenderness: float = 0.1, boundary: str = "thin"
-) -> TankScene:
+def slender(shape: str, liquids: str, tolerance: float, *, slenderness: float = 0.1, boundary: str = "thin") -> Scene:
     """Return a float half a metre above and below y = 0, in some of `THIN_LIQUIDS`."""
     layers = THIN_LIQUIDS[liquids]
     below = {"density": layers.density_below, "depth": layers.depth_below}
@@ -179,7 +225,7 @@ def slender(
     }
     more = {"top": "rigid"} if math.isfinite(layers.depth_above) else {}
     liquid = (below, above) if layers.density_above else (below,)
-    return open_scene(body, liquids=liquid, analyses=[], accuracy={"tolerance": tolerance}, **more)
+    return open_scene(body, liquids=liquid, tolerance=tolerance, **more)
 
 
 def thin_omega(liquids: str, kappa: float) -> float:

@@ -18,9 +18,7 @@ from typing import Any
 
 import numpy as np
 from open_cases import TOO_SMALL, complex_of
-from solids_at_sea import CASES, GRAVITY, MOTIONS, bodies_of, depth_of, solved
-
-from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
+from solids_at_sea import CASES, GRAVITY, MOTIONS, bodies_of, depth_of, radiation, resonance, solved
 
 GROUPS = ("hemisphere", "cylinder", "hemisphere_limits", "cylinder_limits", "multi", "resonance")
 _TOO_LARGE = 30.0
@@ -84,9 +82,7 @@ def compared(name: str, tolerance: float) -> list[Compared]:
 def _frequency(case: dict[str, Any], tolerance: float) -> Iterator[Compared]:
     values = case["values"]
     motions, omega = MOTIONS if "added_mass_pitch" in values else MOTIONS[:2], values["omega"]
-    table = solved(
-        bodies_of(case), depth_of(case), tolerance, RadiationRequest(omega=(omega,)), motions=motions
-    ).radiation[0]
+    table = solved(bodies_of(case), depth_of(case), tolerance, radiation(omega), motions=motions).radiation[0]
     found = table.added_mass[0] + 1j * table.radiation_damping[0] / omega
     known = {(one, one): values[f"added_mass_{one}"] + 1j * values[f"damping_{one}"] / omega for one in motions}
     if "pitch" in motions:
@@ -117,9 +113,7 @@ def _limits(case: dict[str, Any], tolerance: float) -> Iterator[Compared]:
     values = case["values"]
     is_sphere = case["group"] == "hemisphere_limits"
     motions = MOTIONS[:2] if is_sphere else MOTIONS
-    table = solved(
-        bodies_of(case), depth_of(case), tolerance, RadiationRequest(omega=(0.0, inf)), motions=motions
-    ).radiation[0]
+    table = solved(bodies_of(case), depth_of(case), tolerance, radiation(0.0, inf), motions=motions).radiation[0]
     pairs = {one: (one, one) for one in motions} | ({} if is_sphere else {"surge_pitch": ("surge", "pitch")})
     for row, limit in enumerate(("omega_0", "omega_inf")):
         for key, (one, other) in pairs.items():
@@ -148,7 +142,7 @@ def _columns(case: dict[str, Any], tolerance: float) -> Iterator[Compared]:
         [_compound(columns)] if touching else bodies_of(case),
         depth_of(case),
         tolerance,
-        RadiationRequest(omega=(omega,)),
+        radiation(omega),
         motions=tuple(motion for motion in MOTIONS if any(name.endswith(motion) for name in named)),
     ).radiation[0]
     for order in orders:
@@ -187,9 +181,7 @@ def _compound(columns: list[list[float]]) -> dict[str, Any]:
 
 
 def _resonance(case: dict[str, Any], tolerance: float) -> Iterator[Compared]:
-    table = solved(bodies_of(case), depth_of(case), tolerance, ResonanceRequest(count=1), motions=("heave",)).resonance[
-        0
-    ]
+    table = solved(bodies_of(case), depth_of(case), tolerance, resonance(count=1), motions=("heave",)).resonance[0]
     known = complex(complex_of(case["values"]["omega"]))
     yield Compared(
         value="heave",

@@ -2,45 +2,44 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
-from mpi4py import MPI
-from open_cases import stored
-
-from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
-from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.open_water.physics import open_water_problem
+from open_cases import answer, sea, stored
 
 CASES = {case["name"]: case for case in stored("axisymmetric_sea.json")["cases"]}
 DENSITY, GRAVITY = 1000.0, 9.81
 MOTIONS = ("heave", "surge", "pitch")
 
 
-def problem_of(
-    bodies: list[dict[str, Any]],
-    depth: float,
-    tolerance: float,
-    *,
-    motions: tuple[str, ...] = MOTIONS,
-    **further: Any,
-) -> OpenWaterProblem:
-    """Return the problem of solids; pitch is about the still level; further keys of the scene may be given."""
-    body = [{"kind": "float", "motions": list(motions), "vertical_centre_of_gravity": 0.0} | one for one in bodies]
-    keys = {
-        "liquid": [{"density": DENSITY, "depth": depth}],
-        "body": [one | {"unstable": "solve"} for one in body],
-        "accuracy": {"tolerance": tolerance},
-    }
-    return open_water_problem(SeaScene(**keys | further), MPI.COMM_WORLD, Stopwatch())
+def solids(
+    bodies: list[dict[str, Any]], depth: float, tolerance: float, *, motions: tuple[str, ...] = MOTIONS, **further: Any
+) -> dict[str, Any]:
+    """Return the scene of solids; pitch is about the still level; further keys of the scene may be given."""
+    common = {"kind": "float", "motions": list(motions), "vertical_centre_of_gravity": 0.0, "unstable": "solve"}
+    return sea(*(common | one for one in bodies), depth=depth, tolerance=tolerance) | further
 
 
 def solved(
-    bodies: list[dict[str, Any]], depth: float, tolerance: float, *requests: Any, **further: Any
-) -> OpenWaterSolution:
-    """Solve analyses of the problem; see `problem_of`."""
-    return solve_open_water(problem_of(bodies, depth, tolerance, **further), requests)
+    bodies: list[dict[str, Any]], depth: float, tolerance: float, *analyses: dict[str, Any], **further: Any
+) -> SimpleNamespace:
+    """Solve analyses of the scene; see `solids`."""
+    return answer(solids(bodies, depth, tolerance, **further), *analyses)
+
+
+def radiation(*omega: float) -> dict[str, Any]:
+    """Return the analysis of added mass, damping and excitation."""
+    return {"kind": "radiation", "omega": list(omega)}
+
+
+def response(*omega: float, **asked: Any) -> dict[str, Any]:
+    """Return the analysis of motions in waves."""
+    return {"kind": "response", "omega": list(omega)} | asked
+
+
+def resonance(**asked: Any) -> dict[str, Any]:
+    """Return the analysis of resonances."""
+    return {"kind": "resonance"} | asked
 
 
 def bodies_of(case: dict[str, Any]) -> list[dict[str, Any]]:

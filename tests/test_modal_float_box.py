@@ -155,10 +155,3 @@ def test_a_single_root_lies_between_neighbouring_waves() -> None:
         assert modes.omega[0] < modes.waves[0]
         assert np.all(modes.waves[:-1] < modes.omega[1:])
         assert np.all(modes.omega < modes.waves)
-
-
-def test_equal_depths_know_the_total_density_only() -> None:
-    # h₁ = h₂: two liquids are one with g* and ρ₁ + ρ₂.
-    two = box_modes(box(depths=(1.5, 1.5), density_above=0.6), 10).omega / math.sqrt(0.4 / 1.6)
-    one = box_modes(box(depths=(1.5, 1.5), density_above=0.0), 10).omega
-    np.testing.assert_allclose(two, one, rtol=1e-13)

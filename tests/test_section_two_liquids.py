@@ -154,13 +154,6 @@ def test_halves_give_the_modes_of_the_whole_tank(top: LayerTop) -> None:
     assert_alike(halves, whole)
 
 
-@pytest.mark.slow
-def test_the_mirror_image_has_the_same_frequencies() -> None:
-    left = layered(interface_beam(start=0.1, length=0.3), interface_beam(start=0.5, length=0.2))
-    right = layered(interface_beam(start=0.3, length=0.2), interface_beam(start=0.6, length=0.3))
-    assert_alike(answer(left), answer(right))
-
-
 @pytest.mark.parametrize("top", ["rigid", "free"])
 def test_both_liquids_keep_their_volume_and_move_with_their_surfaces(top: LayerTop) -> None:
     """∫η over each level and its bodies is zero; w of a float of width 2b takes 2b per unit of heave."""

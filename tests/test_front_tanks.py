@@ -76,6 +76,7 @@ CANAL: dict[str, Any] = {
 }
 
 
+@pytest.mark.slow_but("1")
 @pytest.mark.parametrize("liquids", [1, 2])
 def test_motions_in_the_middle_of_a_canal_have_their_names(tmp_path: Any, liquids: int) -> None:
     """A tank that is its own mirror image falls into two halves; one that is a hair off does not."""
@@ -160,6 +161,7 @@ CORNERS: dict[str, tuple[dict[str, Any], float, list[float]]] = {
 }
 
 
+@pytest.mark.slow_but("cone")
 @pytest.mark.parametrize("case", CORNERS)
 def test_estimates_see_weak_singularities_at_corners_of_the_bed(tmp_path: Any, case: str) -> None:
     tank, tolerance, exact = CORNERS[case]

@@ -100,34 +100,6 @@ def test_base_tank_by_name() -> None:
         assert estimates[name].omega == pytest.approx(omega, abs=6e-7), name
 
 
-@pytest.mark.slow_but("True")
-@pytest.mark.parametrize("hydrostatic", [False, True])
-def test_frequencies_do_not_depend_on_the_unit_of_length(hydrostatic: bool) -> None:
-    # kg and s kept, m → mm: 1000 kg/m³ = 1e-6 kg/mm³, 50 kg/m² = 5e-5 kg/mm², EI = 5e3 kg m²/s² = 5e9 kg mm²/s².
-    # The solver scales to l = ρ = g = 1 first, so only rounding differs.
-    metres = vary(hydrostatic=hydrostatic, start=1.3)
-    millimetres = FloatingBeam(
-        tank_length=1e4,
-        depth=5e3,
-        density=1e-6,
-        gravity=9.81e3,
-        start=1.3e3,
-        length=4e3,
-        flexural_rigidity=5e9,
-        mass_per_length=5e-5,
-        hydrostatic=hydrostatic,
-    )
-    small, large = all_estimates(millimetres), all_estimates(metres)
-    for name in NAMES:
-        if large[name].omega is None:
-            assert small[name].omega is None
-        else:
-            assert small[name].omega == pytest.approx(large[name].omega, rel=1e-9), name
-            assert small[name].added_mass_per_length == pytest.approx(
-                large[name].added_mass_per_length * 1e-6, rel=1e-7
-            ), name
-
-
 @pytest.mark.slow_but("0.7")
 @pytest.mark.parametrize("start", [0.0, 0.7])
 def test_mirrored_tank_gives_the_same_estimates(start: float) -> None:

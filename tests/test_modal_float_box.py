@@ -147,18 +147,3 @@ def _pencil_roots(body: FloatInTank, count: int) -> np.ndarray:
     rise = 1 + profile.half_width / half
     stiffness = np.diag(np.concatenate([[body.stiffness * rise], np.full(count, 4 / half * restoring)]))
     return np.sqrt(eigh(stiffness, mass, eigvals_only=True))
-
-
-def test_a_single_root_lies_between_neighbouring_waves() -> None:
-    for density_above in (0.0, 0.5, 1 / 1.02, 1 - 1e-9):
-        modes = box_modes(box(density_above=density_above, depths=(1.5, 1.5)), 40)
-        assert modes.omega[0] < modes.waves[0]
-        assert np.all(modes.waves[:-1] < modes.omega[1:])
-        assert np.all(modes.omega < modes.waves)
-
-
-def test_equal_depths_know_the_total_density_only() -> None:
-    # h₁ = h₂: two liquids are one with g* and ρ₁ + ρ₂.
-    two = box_modes(box(depths=(1.5, 1.5), density_above=0.6), 10).omega / math.sqrt(0.4 / 1.6)
-    one = box_modes(box(depths=(1.5, 1.5), density_above=0.0), 10).omega
-    np.testing.assert_allclose(two, one, rtol=1e-13)

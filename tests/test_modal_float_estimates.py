@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import pytest
 
 from hydroelastic.modal.floats.box import box_modes
-from hydroelastic.modal.floats.estimates import FloatEstimate, all_float_estimates
+from hydroelastic.modal.floats.estimates import all_float_estimates
 from hydroelastic.modal.floats.in_tank import FloatInTank
 from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.liquid.two_layer import TwoLayers
@@ -66,16 +65,3 @@ def test_the_box_is_the_float_mode_of_the_secular_equation() -> None:
     assert "64 %" in estimate.note
     assert estimate.added_mass == pytest.approx(0.3924 / estimate.omega**2 - 0.24, rel=1e-12)
     assert estimate.omega == box_modes(body("parabola"), 16).omega[2]
-
-
-def test_reasons() -> None:
-    assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float"].note
-    assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float_box"].note
-    assert "no closed form" in all_float_estimates(body("parabola"))["high_frequency"].note
-    beside = dataclasses.replace(body("wedge"), position=4.0)
-    assert "middle" in all_float_estimates(beside)["thin_float_box"].note
-
-
-def test_numbers_must_be_numbers() -> None:
-    with pytest.raises(ValueError, match="omega"):
-        FloatEstimate(omega=math.nan, added_mass=None, note="")

@@ -134,7 +134,7 @@ def test_beginning_tail_and_crossover(shape: FloatShape, slenderness: float) -> 
         assert abs(free_motion_tail(profile, 2 * crossing)) > 2 * math.exp(2 * pole.frequency.real * crossing)
 
 
-@pytest.mark.slow_but("exponential")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["exponential", "wedge"])
 def test_the_whole_motion_has_mean_zero(shape: FloatShape) -> None:
     """∫ f dθ = 0: the transform vanishes at z = 0. The rest beyond T follows from the tail, next term O(ln T/T³)."""

@@ -201,6 +201,7 @@ def staircase(steps: int) -> dict[str, Any]:
     return {"kind": "beam", "start": 2.0, "sections": sections}
 
 
+@pytest.mark.slow
 def test_a_beam_of_eight_steps_is_nearly_the_same() -> None:
     exact, steps = (kept(on_water(body, tolerance=1e-5, modes=4)).omega for body in (plate(), staircase(8)))
     # Measured −1.5e-5 to −3.6e-4: of second order in the length of the steps, and a quarter of it with sixteen.

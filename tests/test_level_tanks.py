@@ -365,3 +365,39 @@ def test_a_study_asks_each_model_for_tolerances() -> None:
     ]
     for row in rows:
         assert max(map(abs, row.errors)) <= row.estimate <= row.tolerance
+
+
+ROUND: dict[str, Any] = {"radius": 5.0}
+DISC = plate("disc", 5e3, 50.0, radius=2.0)
+SLATS = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
+CROSSING = [[2.0, 2.0], [6.0, 6.0], [6.0, 2.0], [2.0, 6.0]]
+COVER = plate("rectangle", inf, 10.0, size=[10.0, 5.0], edge="sliding")
+BAD: dict[str, tuple[dict[str, Any], str]] = {
+    "two plans": (tank(ROUND | {"width": 2.0}, 3.0, DISC), r"\[tank\], key .*different plans"),
+    "no plan": (tank({"length": 5.0}, 3.0, DISC), 'no plan. Did you mean "beam"'),
+    "varying beam": (tank(ROUND, 3.0, {"kind": "varying_beam", "start": 0.0}), "bodies are plates"),
+    "beams in a cylinder": (tank(ROUND, 3.0, SLATS), "side to side of a box"),
+    "strip in a cylinder": (tank(ROUND, 3.0, plate("strip", inf, 1.0, start=1.0, length=2.0)), "side to side of a box"),
+    "outside": (tank(ROUND, 3.0, DISC | {"radius": 6.0}), 'key "radius" = 6.0: .*does not lie inside'),
+    "overlap": (tank(ROUND, 3.0, DISC, DISC | {"radius": 1.0}), "overlaps or touches"),
+    "touching": (tank(ROUND, 3.0, DISC | {"position": [3.0, 0.0]}), "touches a wall"),
+    "stiffness twice": (tank(ROUND, 3.0, DISC | {"rigid": True}), "given twice"),
+    "key of another outline": (tank(ROUND, 3.0, DISC | {"size": [1.0, 1.0]}), "does not belong to outline"),
+    "nothing moves": (tank(ROUND | {"top": "rigid"}, 3.0), "nothing moves"),
+    "nothing oscillates": (tank({"length": 10.0, "width": 5.0}, 3.0, COVER), "nothing oscillates"),
+    "too thin": (tank(ROUND, 1e-5, DISC), "too thin"),
+    "crossing plan": (tank({"plan": CROSSING}, 3.0), r"folds back on itself near \(6, 6\)"),
+    "crossing plate": (tank(ROUND, 3.0, plate("polygon", 5e3, 50.0, points=CROSSING)), "folds back on itself"),
+    "vertex twice": (tank({"plan": [*CROSSING[::2], CROSSING[0]]}, 3.0), "first vertex is not repeated"),
+    "held at a slanted wall": (
+        tank(ROUND, 3.0, plate("polygon", inf, 1.0, points=[[0.0, 2.0], [3.0, 2.0], [0.0, 4.0]], edge="clamped")),
+        "walls hold edges of rectangles and strips in a box",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_what_does_not_fit_is_refused(case: str) -> None:
+    document, said = BAD[case]
+    with pytest.raises(he.SceneError, match=said):
+        solved(document, 1e-2, 1)

@@ -120,6 +120,7 @@ def test_a_rigid_disc_on_deep_wide_water_has_the_added_mass_of_lamb() -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_rigid_strip_or_disc_on_deep_wide_water_has_the_estimated_frequencies() -> None:
     """With ψ = 0 beside them; of a strip both motions are of order 0."""
     strip, disc = plate("strip", inf, 1.0, start=0.49, length=0.02), plate("disc", inf, 1.0, radius=0.02)
@@ -165,7 +166,7 @@ def test_plates_as_soft_as_water_leave_the_waves_of_a_ring() -> None:
     """Two concentric rings about an inner cylinder."""
     plan = {"radius": 5.0, "inner_radius": 1.0}
     rings = [plate("ring", 1e-6, 1e-12, radius=r, inner_radius=r - 1.0) for r in (3.0, 4.5)]
-    soft, bare = (solved(tank(plan, 3.0, *bodies), 1e-6, 3).modes.omega for bodies in (rings, ()))
+    soft, bare = (solved(tank(plan, 3.0, *bodies), 1e-5, 3).modes.omega for bodies in (rings, ()))
     # Its bending of D/(ρgL⁴) = 2e-13 is not none.
     assert soft == pytest.approx(bare, rel=1e-6)
 
@@ -239,11 +240,13 @@ def test_another_model_of_the_same_tank_has_its_frequencies(case: str) -> None:
     assert errors.min() > -1e-9
     assert np.all(errors < np.maximum(result.modes.relative_error, 1e-11))
     assert errors.max() < tolerance
-    tone, known = result.summary["first_elastic"], plain.summary["first_elastic"]
-    for key in ("omega", "pressure_release_omega"):
-        error = key.replace("omega", "relative_error")
-        assert abs(tone[key] / known[key] - 1.0) <= tone[error] + known[error]
-    assert tone["dry_omega"] == pytest.approx(known["dry_omega"], rel=1e-6)
+    # Of a heavy disc no mode of the few that are solved for on triangles is its tone.
+    if case != "disc beside the axis":
+        tone, known = result.summary["first_elastic"], plain.summary["first_elastic"]
+        for key in ("omega", "pressure_release_omega"):
+            error = key.replace("omega", "relative_error")
+            assert abs(tone[key] / known[key] - 1.0) <= tone[error] + known[error]
+        assert tone["dry_omega"] == pytest.approx(known["dry_omega"], rel=1e-6)
 
 
 STRIPS = [plate("strip", D, 50.0, start=0.7 + 3.2 * i, length=2.0) for i, D in enumerate((5e2, 5e4, 5e3))]
@@ -284,8 +287,8 @@ def test_pressure_release_tones_are_limits_of_thin_layers() -> None:
     )
 
 
-@pytest.mark.slow_but("False-True")
-@pytest.mark.parametrize(("hydrostatic", "round_"), [(False, False), (True, False), (False, True), (True, True)])
+@pytest.mark.slow
+@pytest.mark.parametrize(("hydrostatic", "round_"), [(True, False), (False, True), (True, True)])
 def test_modes_with_a_released_surface_are_those_of_orders(*, hydrostatic: bool, round_: bool) -> None:
     if round_:
         plan: dict[str, Any] = {"radius": 5.0}
@@ -364,3 +367,39 @@ def test_a_study_asks_each_model_for_tolerances() -> None:
     ]
     for row in rows:
         assert max(map(abs, row.errors)) <= row.estimate <= row.tolerance
+
+
+ROUND: dict[str, Any] = {"radius": 5.0}
+DISC = plate("disc", 5e3, 50.0, radius=2.0)
+SLATS = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
+CROSSING = [[2.0, 2.0], [6.0, 6.0], [6.0, 2.0], [2.0, 6.0]]
+COVER = plate("rectangle", inf, 10.0, size=[10.0, 5.0], edge="sliding")
+BAD: dict[str, tuple[dict[str, Any], str]] = {
+    "two plans": (tank(ROUND | {"width": 2.0}, 3.0, DISC), r"\[tank\], key .*different plans"),
+    "no plan": (tank({"length": 5.0}, 3.0, DISC), 'no plan. Did you mean "beam"'),
+    "varying beam": (tank(ROUND, 3.0, {"kind": "varying_beam", "start": 0.0}), "bodies are plates"),
+    "beams in a cylinder": (tank(ROUND, 3.0, SLATS), "side to side of a box"),
+    "strip in a cylinder": (tank(ROUND, 3.0, plate("strip", inf, 1.0, start=1.0, length=2.0)), "side to side of a box"),
+    "outside": (tank(ROUND, 3.0, DISC | {"radius": 6.0}), 'key "radius" = 6.0: .*does not lie inside'),
+    "overlap": (tank(ROUND, 3.0, DISC, DISC | {"radius": 1.0}), "overlaps or touches"),
+    "touching": (tank(ROUND, 3.0, DISC | {"position": [3.0, 0.0]}), "touches a wall"),
+    "stiffness twice": (tank(ROUND, 3.0, DISC | {"rigid": True}), "given twice"),
+    "key of another outline": (tank(ROUND, 3.0, DISC | {"size": [1.0, 1.0]}), "does not belong to outline"),
+    "nothing moves": (tank(ROUND | {"top": "rigid"}, 3.0), "nothing moves"),
+    "nothing oscillates": (tank({"length": 10.0, "width": 5.0}, 3.0, COVER), "nothing oscillates"),
+    "too thin": (tank(ROUND, 1e-5, DISC), "too thin"),
+    "crossing plan": (tank({"plan": CROSSING}, 3.0), r"folds back on itself near \(6, 6\)"),
+    "crossing plate": (tank(ROUND, 3.0, plate("polygon", 5e3, 50.0, points=CROSSING)), "folds back on itself"),
+    "vertex twice": (tank({"plan": [*CROSSING[::2], CROSSING[0]]}, 3.0), "first vertex is not repeated"),
+    "held at a slanted wall": (
+        tank(ROUND, 3.0, plate("polygon", inf, 1.0, points=[[0.0, 2.0], [3.0, 2.0], [0.0, 4.0]], edge="clamped")),
+        "walls hold edges of rectangles and strips in a box",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_what_does_not_fit_is_refused(case: str) -> None:
+    document, said = BAD[case]
+    with pytest.raises(he.SceneError, match=said):
+        solved(document, 1e-2, 1)

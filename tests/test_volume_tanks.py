@@ -172,7 +172,7 @@ def test_a_column_on_the_axis_makes_a_ring() -> None:
     assert abs(sqrt(G * k * np.tanh(2.0 * k)) / ring[0] - 1.0) > 1e-2
 
 
-@pytest.mark.slow_but("places1")
+@pytest.mark.slow
 @pytest.mark.parametrize("places", [[(0.7, 0.0808)], [(0.4, 0.35), (0.5608, 0.35)]])
 def test_a_column_may_nearly_touch_a_wall_or_another_one(places: list[tuple[float, float]]) -> None:
     """A gap of a hundredth of the radius; without cells of its own size curved cells are inverted in it."""
@@ -210,7 +210,7 @@ def test_a_baffle_close_under_the_surface_slows_the_water_above_it() -> None:
     """A ring at the wall, much of the surface: waves above it are those of shallow water, and slower."""
     ring = {"level": -0.05, "radius": 1.0, "inner_radius": 0.5}
     bare, baffled = (
-        solved(tank({"radius": 1.0}, 1.0, baffle=baffles), 3e-2, 1).modes.omega
+        solved(tank({"radius": 1.0}, 1.0, baffle=baffles), 0.1, 1).modes.omega
         for baffles in ([{"level": -0.9, "radius": 1.0, "inner_radius": 0.95}], [ring])
     )
     assert bare[0] == pytest.approx(sqrt(G * 1.8411838 * np.tanh(1.8411838)), rel=1e-2)

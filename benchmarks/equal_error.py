@@ -23,16 +23,7 @@ _SLACK = 1e-2
 
 
 def seconds_at(points: Iterable[tuple[float, float]], error: float) -> float | None:
-    """Seconds in which an error is reached.
-
-    Args:
-        points: (seconds, error) of the measurements.
-        error: relative error.
-
-    Returns:
-        The seconds between the two neighbours on the front; the least of all where every measurement is better than
-        asked; ``None`` if none is good enough, or nearly so: two ways to the same matrices differ by rounding.
-    """
+    """Seconds in which an error is reached."""
     best = front(points)
     if not best or error * (1.0 + _SLACK) < best[-1][1]:
         return None

@@ -56,17 +56,7 @@ def cases_of(tank: BenchmarkTank, *, quick: bool) -> tuple[Case, ...]:
 
 
 def run_benchmark(cases: Sequence[Case], *, repeats: int, install: bool, report: Report) -> Benchmark:
-    """Start all codes and measure all cases.
-
-    Args:
-        cases: what is to be measured.
-        repeats: how often.
-        install: whether peers that are missing are installed.
-        report: told what is being done.
-
-    Returns:
-        The rows, and which codes could not be measured.
-    """
+    """Start all codes and measure all cases."""
     with contextlib.ExitStack() as stack:
         workers, not_measured = _start(stack, cases, install=install, report=report)
         solvers: dict[Code, Solve] = {code: worker.solve for code, worker in workers.items()}
@@ -99,18 +89,7 @@ def _start(
 def measure(
     cases: Sequence[Case], solvers: dict[Code, Solve], *, repeats: int, report: Report
 ) -> tuple[tuple[Row, ...], dict[Code, str]]:
-    """Let the codes take turns.
-
-    Args:
-        cases: what is to be measured.
-        solvers: by code; cases of others are left out.
-        repeats: rounds that count; one before them does not.
-        report: told what is being done.
-
-    Returns:
-        A row for each case, in the given order, and the codes that failed with their reasons. A code that fails is
-        left out altogether: a table of half of its cases would mislead.
-    """
+    """Let the codes take turns."""
     seconds: dict[Case, list[float]] = {}
     answers: dict[Case, list[Answer]] = {}
     failed: dict[Code, str] = {}

@@ -57,11 +57,7 @@ class OutputError(Exception):
 
 
 def check_folder(folder: Path) -> None:
-    """See before anything is measured that files can be written into a folder; leaves nothing behind.
-
-    Raises:
-        OutputError: if not.
-    """
+    """See before anything is measured that files can be written into a folder; leaves nothing behind."""
     above = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
     try:
         with tempfile.TemporaryFile(dir=above):
@@ -71,11 +67,7 @@ def check_folder(folder: Path) -> None:
 
 
 def write_results(benchmark: Benchmark, folder: Path, output: Output) -> None:
-    """Write table, page and figure of a problem; other files of the folder stay.
-
-    Raises:
-        OutputError: if the folder cannot be written.
-    """
+    """Write table, page and figure of a problem; other files of the folder stay."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".partial.", dir=folder) as scratch:

@@ -44,15 +44,7 @@ _MISSING = "—"
 
 
 def page(title: str, method: str, picture: str, parts: Iterable[str], benchmark: Benchmark) -> str:
-    """Return a page in Markdown.
-
-    Args:
-        title: heading.
-        method: what was measured and how.
-        picture: file of the figure; "" for none.
-        parts: what stands between the figure and the machine.
-        benchmark: names the machine, the day and the versions.
-    """
+    """Return a page in Markdown."""
     head = [f"# {title}", method.rstrip(), *([f"![Error against seconds]({picture})"] if picture else [])]
     return "\n\n".join([*head, *parts, "## Measured on", machine_list(benchmark)]) + "\n"
 
@@ -65,14 +57,7 @@ def tanks_of(rows: Sequence[Row]) -> list[str]:
 def measurements(
     rows: Sequence[Row], head: Sequence[str], named: Cells, *, told: Cells = lambda row: (row.note,)
 ) -> str:
-    """Return a table of all that was measured.
-
-    Args:
-        rows: what was measured.
-        head: all headings.
-        named: the cells that stand before unknowns, error, milliseconds and spread.
-        told: those that stand behind them.
-    """
+    """Return a table of all that was measured."""
     lines = [
         [
             *(*named(row), str(row.unknowns), f"{row.error:.1e}"),
@@ -99,16 +84,7 @@ def front(
     named: Cells,
     own_name: Callable[[Row], str],
 ) -> str:
-    """Return a table of the best answers of peers, and the fastest own ones with no larger error.
-
-    Args:
-        rows: what was measured.
-        heads: of the problem and of what names an answer of a peer.
-        peers: codes whose best answers are listed.
-        own: codes that are compared with them.
-        named: the cells that name an answer of a peer.
-        own_name: the cell that names an own answer.
-    """
+    """Return a table of the best answers of peers, and the fastest own ones with no larger error."""
     slower = f"{NAMES[peers[0]] if len(peers) == 1 else 'peer'} ÷"
     head = [*heads, "error", "milliseconds", "hydroelastic", "error", "milliseconds", slower]
     lines = []

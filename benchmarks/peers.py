@@ -45,19 +45,7 @@ class PeerError(RuntimeError):
 
 
 def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> Path | None:
-    """Where the packages of a peer are.
-
-    Args:
-        code: the peer.
-        install: whether to install it where it is missing.
-        report: told before an installation.
-
-    Returns:
-        The folder to add to the search path, or ``None`` if the environment itself has the peer.
-
-    Raises:
-        PeerError: if it is missing and not installed, or if what was installed cannot be read.
-    """
+    """Where the packages of a peer are."""
     # `importlib.util.find_spec` would find what this process has imported from elsewhere, too.
     if PathFinder.find_spec(PEER_MODULES[code]) is not None:
         return None
@@ -97,7 +85,6 @@ def _requirement(package: str) -> str:
 
 
 def _fingerprint(requirement: str) -> str:
-    """Of all that decides what is installed."""
     kept = [f"{name}=={version(name)}" for name in _KEPT]
     parts = [requirement, *kept, str(sys.implementation.cache_tag), sysconfig.get_platform()]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:12]
@@ -148,6 +135,5 @@ def _pip(*arguments: str) -> None:
 
 
 def _packages(prefix: Path) -> Path:
-    """Where pip puts packages below a prefix."""
     scheme = sysconfig.get_preferred_scheme("prefix")
     return Path(sysconfig.get_path("purelib", scheme, {"base": str(prefix), "platbase": str(prefix)}))

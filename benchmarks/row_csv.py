@@ -11,13 +11,7 @@ from hydroelastic.benchmarks.rows import Row
 
 
 def rows_csv(columns: Sequence[str], rows: Sequence[Row], cells: Callable[[Row], Sequence[Any]]) -> str:
-    """Return a line for each row, which ends with its stages and its note.
-
-    Args:
-        columns: all headings.
-        rows: what was measured.
-        cells: what stands before the last two columns.
-    """
+    """Return a line for each row, which ends with its stages and its note."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)

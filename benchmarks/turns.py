@@ -12,10 +12,6 @@ def take_turns(cases: Sequence[Case], repeats: int) -> Iterator[tuple[int, Case]
     """Yield each case once for each round, tank by tank; round 0 warms up.
 
     In a round the codes follow one another, each with its next case. Each round begins at another case.
-
-    Args:
-        cases: all that is to be measured.
-        repeats: rounds that count.
     """
     for tank in dict.fromkeys(case.tank for case in cases):
         queues = [[case for case in cases if case.tank == tank and case.code == code] for code in ALL_CODES]

@@ -102,15 +102,7 @@ def cells_of(unknowns: float, degree: int) -> int:
 def measured(
     comm: MPI.Comm, degree: int, unknowns: float, tolerance: float, *, processor: bool = False
 ) -> dict[str, float]:
-    """Solve Laplace's equation once for the load of a wave, and return a line of the table (collective).
-
-    Args:
-        comm: the processes.
-        degree: of ψ.
-        unknowns: about.
-        tolerance: of Laplace's equation.
-        processor: whether seconds are those of the processor, of the first process.
-    """
+    """Solve Laplace's equation once for the load of a wave, and return a line of the table (collective)."""
     clock = process_time if processor else perf_counter
     times = [clock()]
     with peak_memory(comm) as memory:
@@ -153,11 +145,7 @@ def _wave_load(liquid: LiquidSpace) -> np.ndarray:
 
 
 def by_ngsolve(unknowns: float, tolerance: float) -> dict[str, float]:
-    """Return the line of NGSolve for about the same unknowns of degree 2, in a process of its own.
-
-    Raises:
-        PeerError: if NGSolve is not there and cannot be installed.
-    """
+    """Return the line of NGSolve for about the same unknowns of degree 2, in a process of its own."""
     folder = peer_folder("ngsolve", install=True, report=print)
     command = [sys.executable, "-m", "hydroelastic.benchmarks.cube_ngsolve", str(folder or "")]
     command += [str(cells_of(unknowns, 2)), str(tolerance)]

@@ -36,20 +36,12 @@ class Worker:
     """
 
     def __init__(self, process: subprocess.Popen[str], said: IO[bytes]) -> None:
-        """Wait until the process has imported its code.
-
-        Raises:
-            WorkerError: if the code cannot be imported.
-        """
+        """Wait until the process has imported its code."""
         self._process, self._said = process, said
         self.versions: dict[str, str] = self._receive()["versions"]
 
     def solve(self, case: Case) -> tuple[float, Answer]:
-        """Solve a case: seconds, and the answer.
-
-        Raises:
-            WorkerError: if the code fails, or its process has ended.
-        """
+        """Solve a case: seconds, and the answer."""
         assert self._process.stdin is not None
         with contextlib.suppress(BrokenPipeError):  # its last words are read below
             print(json.dumps(asdict(case)), file=self._process.stdin, flush=True)
@@ -74,18 +66,7 @@ class Worker:
 
 @contextlib.contextmanager
 def start_worker(code: Code, folder: Path | None) -> Iterator[Worker]:
-    """Start the process of a code; it ends with the block, at once if it is still solving.
-
-    Args:
-        code: which one.
-        folder: packages of the code, if the environment does not have them.
-
-    Yields:
-        The worker, which has imported its code.
-
-    Raises:
-        WorkerError: if the code cannot be imported.
-    """
+    """Start the process of a code; it ends with the block, at once if it is still solving."""
     command = [sys.executable, "-m", "hydroelastic.benchmarks.worker", code, *([str(folder)] if folder else [])]
     with (
         tempfile.TemporaryFile() as said,

@@ -65,23 +65,8 @@ def adaptive_solve(
     least_gain: float = 0.0,
     failures: tuple[type[Exception], ...] = (),
 ) -> AdaptiveSolution[Solution]:
-    """Solve on successively refined discretizations until the error is within a tolerance, or keep the best solution.
-
-    Args:
-        start: the first discretization: a mesh, a degree, a step in time.
-        solve: solves on a discretization; the solution holds what `estimate` and `refine` need.
-        estimate: the error of a solution.
-        refine: the next discretization by the last one and its solution, or ``None`` if none would be better.
-        tolerance: in the units of the estimate.
-        rounds: largest number of solutions, at least 1.
-        least_gain: the refinement ends where it divides the error of the best solution by less than this: 1 where
-            errors that have begun to grow will grow further, 0 where they may fall again.
-        failures: errors of `solve` that end the refinement; those of the first round are raised.
-
-    Returns:
-        The first solution within the tolerance, or else the one of least `ErrorEstimate.shortfall` (collective, as
-        `solve` is); see whether it converged.
-    """
+    """Solve on successively refined discretizations until the error is within a tolerance, or keep the best
+    solution."""
     best: AdaptiveSolution[Solution] | None = None
     discretization = start
     for left in reversed(range(rounds)):

@@ -34,15 +34,7 @@ def _liquid_momentum(
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
-    """Added-mass matrix of the body shapes with the free surface fixed.
-
-    Args:
-        pencil: the coupled problem. Under ψ = 0 on the water this is the high-frequency added mass; under a lid the
-            volume of each shape is spread over the moving surfaces.
-
-    Returns:
-        ρ∫φᵢψⱼ, shape (functions, functions), in the pencil's units.
-    """
+    """Added-mass matrix of the body shapes with the free surface fixed."""
     return body_responses(pencil)[0]
 
 
@@ -88,12 +80,7 @@ class CondensedKinetics:
     """
 
     def __init__(self, pencil: CoupledPencil, *, keeps: bool = False) -> None:
-        """Solve for the potential of each condensed motion (collective).
-
-        Args:
-            pencil: the coupled problem.
-            keeps: whether ψ of every product is kept in `potentials`.
-        """
+        """Solve for the potential of each condensed motion (collective)."""
         self.pencil = pencil
         self.potentials: list[PETSc.Vec] = []
         self._keeps = keeps
@@ -167,7 +154,6 @@ class CondensedKinetics:
         return corrections
 
     def _follow(self, displacement: PETSc.Vec) -> np.ndarray:
-        """D⁻¹ Wᵀ e."""
         if not self._columns:
             return np.empty(0)
         return np.linalg.solve(self._dense, np.array([column.dot(displacement) for column in self._columns]))
@@ -198,14 +184,7 @@ class CondensedKinetics:
             set_entries(vector, self.pencil.unstable, -values[self.pencil.unstable])
 
     def recover(self, displacement: PETSc.Vec, potential: PETSc.Vec, *, known: bool = False) -> None:
-        """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constants.
-
-        Args:
-            displacement: e on entry, ζ on return.
-            potential: ψ on return.
-            known: whether ``potential`` is that of e on entry, a combination of those kept; Laplace's equation is then
-                not solved.
-        """
+        """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constants."""
         self._project(displacement)
         follow = -self._follow(displacement)
         rigid = len(self.free_rigid)

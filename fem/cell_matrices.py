@@ -87,7 +87,6 @@ class CellMatrices:
         return (cells[first], alike) if len(first) < _FEW_SHAPES * len(cells) else (cells, slice(None))
 
     def _full(self, cells: np.ndarray) -> np.ndarray:
-        """All of the matrices, the unknowns before those inside."""
         weights = self.geometry.weight(cell_positions(self.numbering.space.mesh, cells, self.points)[..., 0])
         transverse = (self.geometry.transverse / weights,) if self.geometry.transverse else ()
         gradient = (weights,) * self.numbering.space.mesh.topology.dim
@@ -114,15 +113,7 @@ class CellMatrices:
         return np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
 
     def integrals(self, cells: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """Return ∫(Σᵢ wᵢ ∂ᵢψ ∂ᵢq + w ψq) over some cells, the unknowns before those inside.
-
-        Args:
-            cells: the cells.
-            weights: wᵢ, and w unless it is zero, at `points`, shape (cells, points, dim or dim + 1).
-
-        Returns:
-            Shape (cells, unknowns, unknowns).
-        """
+        """Return ∫(Σᵢ wᵢ ∂ᵢψ ∂ᵢq + w ψq) over some cells, the unknowns before those inside."""
         mesh, element, more = self.numbering.space.mesh, self.numbering.space.element.basix_element, self._more
         order, dim = tuple(map(int, (*self.numbering.outside, *self.numbering.inside))), mesh.topology.dim
         if not more:
@@ -145,15 +136,7 @@ class CellMatrices:
 
 
 def condensed(matrices: np.ndarray, outside: int) -> tuple[np.ndarray, np.ndarray]:
-    """Condense the last unknowns of symmetric matrices.
-
-    Args:
-        matrices: shape (cells, n, n).
-        outside: number of the unknowns that remain, which come first.
-
-    Returns:
-        A, shape (cells, outside, outside), and E, shape (cells, n − outside, outside).
-    """
+    """Condense the last unknowns of symmetric matrices."""
     extension = -np.linalg.solve(matrices[:, outside:, outside:], matrices[:, outside:, :outside])
     return matrices[:, :outside, :outside] + matrices[:, :outside, outside:] @ extension, extension
 
@@ -174,7 +157,6 @@ def _slopes(cell_type: basix.CellType, degree: int, order: tuple[int, ...], more
 
 @lru_cache(maxsize=16)
 def _reference_laplace(cell_type: basix.CellType, degree: int, order: tuple[int, ...]) -> np.ndarray:
-    """R, shape (dim², functions²)."""
     slopes, weights = _slopes(cell_type, degree, order, 0)
     tensor = np.einsum("q,qan,qbm->abnm", weights, slopes, slopes, optimize=True)
     return tensor.reshape(slopes.shape[1] ** 2, -1)

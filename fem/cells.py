@@ -20,16 +20,7 @@ _NEAREST_STEPS = 20
 
 
 def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Coordinates of points of the reference cell in some cells.
-
-    Args:
-        mesh: the mesh.
-        cells: local cells, shape (cells,).
-        reference: points of the reference cell, shape (points, dim).
-
-    Returns:
-        Coordinates in the unit of the mesh, shape (cells, points, gdim).
-    """
+    """Coordinates of points of the reference cell in some cells."""
     basis = _coordinate_basis(mesh, reference, 0)[0]
     nodes = cell_nodes(mesh, cells)
     # Relative to a corner, so that rounding is that of the cell's distance from the origin.
@@ -39,16 +30,7 @@ def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
 
 
 def cell_jacobians(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Derivatives of the coordinates with respect to those of the reference cell (columns).
-
-    Args:
-        mesh: the mesh.
-        cells: local cells, shape (cells,).
-        reference: points of the reference cell, shape (points, dim).
-
-    Returns:
-        Shape (cells, points, gdim, dim); (cells, 1, gdim, dim) where all cells are straight.
-    """
+    """Derivatives of the coordinates with respect to those of the reference cell (columns)."""
     if is_straight(mesh):
         reference = reference[:1]
     slopes = _coordinate_basis(mesh, reference, 1)[1:]
@@ -64,14 +46,6 @@ def nearest_in_cells(mesh: Mesh, cells: np.ndarray, points: np.ndarray) -> tuple
 
     Points outside of their cells have a nearest point too: Gauss-Newton steps that stay in the reference triangle, of
     which only those are taken that come nearer.
-
-    Args:
-        mesh: the mesh.
-        cells: local cells, one for each point.
-        points: shape (points, 2).
-
-    Returns:
-        Points of the reference triangle, shape (points, 2), and their distances, shape (points,).
     """
     nodes = cell_nodes(mesh, cells)
 

@@ -10,8 +10,6 @@ from hydroelastic.physics.scales import Scales
 
 
 class _InUnits(Protocol):
-    """A tank."""
-
     @property
     def units(self) -> Scales:
         """The units in which it is solved."""

@@ -69,7 +69,6 @@ class DenseModes:
     """The problem of a stable pencil with a scaled answer, on one process."""
 
     def __init__(self, pencil: CoupledPencil, answer: LiquidAnswer) -> None:
-        """Scale the unknowns."""
         self._pencil, self._answer = pencil, answer
         size = pencil.body_size
         self._free = pencil.free_rigid
@@ -117,12 +116,7 @@ class DenseModes:
         return found
 
     def completed(self, eigenvalues: np.ndarray, vectors: np.ndarray) -> CompletedModes:
-        """Complete eigenpairs by rigid motions and constants of ψ, and compute their residuals.
-
-        Args:
-            eigenvalues: λ, shape (modes,).
-            vectors: eigenvectors of `operator` as columns, of any size, shape (n, modes).
-        """
+        """Complete eigenpairs by rigid motions and constants of ψ, and compute their residuals."""
         rigid = len(self._free)
         follow, block, basis, triangle = self._condensed
         forces = vectors * np.sqrt(eigenvalues) / np.linalg.norm(vectors, axis=0, keepdims=True)

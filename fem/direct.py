@@ -11,11 +11,7 @@ _PIVOT = 81
 
 
 def direct_solver(matrix: PETSc.Mat) -> PETSc.KSP:
-    """Cholesky factorization of a symmetric positive definite matrix (collective).
-
-    Raises:
-        EigenSolverError: if the factorization shows that the matrix is not positive definite.
-    """
+    """Cholesky factorization of a symmetric positive definite matrix (collective)."""
     matrix.setOption(PETSc.Mat.Option.SPD, True)
     solver = PETSc.KSP().create(matrix.comm)
     solver.setOperators(matrix)
@@ -44,11 +40,7 @@ def configure_direct(solver: PETSc.KSP) -> None:
 
 
 def configure_indefinite(solver: PETSc.KSP) -> PETSc.Mat:
-    """Configure a solver as a factorization LDLᵀ that gives the inertia of its matrix.
-
-    Returns:
-        The factor, not yet computed, to set options of MUMPS on.
-    """
+    """Configure a solver as a factorization LDLᵀ that gives the inertia of its matrix."""
     _configure(solver, "mumps")
     solver.getPC().setFactorSetUpSolverType()
     return solver.getPC().getFactorMatrix()

@@ -45,14 +45,7 @@ class FacetGroup:
         return cell_positions(self.mesh, self.cells, reference)
 
     def normals(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Outward unit normals of the cells, and the measure of the facets over that of the reference facet.
-
-        Args:
-            reference: points of the facet on the reference cell, shape (points, dim).
-
-        Returns:
-            Shapes (facets, points, gdim) and (facets, points); on straight cells one point stands for all.
-        """
+        """Outward unit normals of the cells, and the measure of the facets over that of the reference facet."""
         jacobians = self.jacobians(reference)
         # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
         areas = np.abs(np.linalg.det(jacobians))[..., None] * (self.reference_normal @ np.linalg.inv(jacobians))

@@ -25,13 +25,6 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
     included, and one more where the constant of ψ multiplies the volume constraint. It is independent of the iterative
     solution.
-
-    Args:
-        pencil: the coupled problem.
-        eigenvalue: σ > 0, not itself an eigenvalue.
-
-    Returns:
-        The count, without zero modes; modes that grow have λ < 0 and count (collective).
     """
     if pencil.answer is not None:
         below = _dense_count(pencil, pencil.answer, eigenvalue)
@@ -78,7 +71,6 @@ def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
 
 
 def _densities(pencil: CoupledPencil) -> np.ndarray:
-    """ρ at each owned unknown of ψ."""
     densities: np.ndarray = np.array(pencil.liquid.densities)[pencil.liquid.owned_layer_of]
     return densities
 

@@ -23,16 +23,7 @@ _DRAWN = 0.25
 
 
 def surface_blocks(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETSc.Mat) -> tuple[PETSc.Mat, PETSc.Mat]:
-    """Coupling and stiffness of one surface.
-
-    Args:
-        liquid: the space of ψ.
-        surface: the surface.
-        surface_mass: S = ∫ψ q over it, and maybe others, on all unknowns of ψ.
-
-    Returns:
-        C, unknowns of ψ × unknowns of η, and K = (ρ_below − ρ_above) g ∫ηη (collective).
-    """
+    """Coupling and stiffness of one surface."""
     below = _global_dofs(liquid, surface.surface, surface.below, surface_mass)
     everything = PETSc.IS().createStride(
         surface_mass.getLocalSize()[0], first=surface_mass.getOwnershipRange()[0], step=1, comm=surface_mass.comm
@@ -105,13 +96,7 @@ def _places(liquid: LiquidSpace, name: str) -> np.ndarray:
 
 
 def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETSc.Mat) -> PETSc.Mat:
-    """∫[ρψ][ρq]/([ρ] g) over one surface, [ρψ] = ρψ below less ρψ above; on all unknowns of ψ (collective).
-
-    Args:
-        liquid: the space of ψ.
-        surface: the surface.
-        surface_mass: ∫ψ q over it, on all unknowns of ψ.
-    """
+    """∫[ρψ][ρq]/([ρ] g) over one surface, [ρψ] = ρψ below less ρψ above; on all unknowns of ψ (collective)."""
     density = liquid.layers[surface.below].density
     below = _global_dofs(liquid, surface.surface, surface.below, surface_mass)
     jump = _selection(below, surface_mass)
@@ -129,7 +114,6 @@ def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETS
 
 
 def _selection(rows: PETSc.IS, matrix: PETSc.Mat) -> PETSc.Mat:
-    """Selection matrix of some owned unknowns."""
     local = rows.getLocalSize()
     selection = PETSc.Mat().createAIJ(((local, PETSc.DETERMINE), matrix.getSizes()[1]), nnz=1, comm=rows.comm)
     start = selection.getOwnershipRange()[0]

@@ -15,14 +15,7 @@ def kept_tolerance(error: float) -> str:
 
 
 def excess(quantity: str, error: float | None, tolerance: float, *, rounding: float = 0.0) -> Iterator[str]:
-    """Yield a message if an error is above the tolerance.
-
-    Args:
-        quantity: what has it, up to "of" and its size.
-        error: the error, if it is known.
-        tolerance: the largest one that is accepted.
-        rounding: the part of it that rounding leaves.
-    """
+    """Yield a message if an error is above the tolerance."""
     if error is not None and error > tolerance:
         cause = f"rounding alone leaves {rounding:.1e}; " if rounding > 0.5 * tolerance else ""
         yield f"{quantity} of {error:.1e}, above the tolerance {tolerance:g}; {cause}{kept_tolerance(error)}"

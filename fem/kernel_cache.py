@@ -41,11 +41,8 @@ def cache_folder() -> Path:
 
 @contextmanager
 def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
-    """Hold the lock on compiled kernels on rank 0, which compiles for all; damaged ones are removed first (collective).
-
-    Args:
-        comm: the processes that need the kernel.
-    """
+    """Hold the lock on compiled kernels on rank 0, which compiles for all; damaged ones are removed first
+    (collective)."""
     # A barrier: no process may wait for the lock on behalf of another communicator while the others wait for it.
     comm.Barrier()
     if comm.rank != 0:
@@ -68,7 +65,6 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
 
 @contextmanager
 def _written(folder: Path) -> Iterator[None]:
-    """Name the cache in errors of the system."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         yield
@@ -78,12 +74,7 @@ def _written(folder: Path) -> Iterator[None]:
 
 
 def _remove_damaged(folder: Path, *, killed: bool) -> None:
-    """Remove the files of incomplete kernels; to be called by the holder of the lock only.
-
-    Args:
-        folder: of the kernels.
-        killed: whether a process was killed while it compiled.
-    """
+    """Remove the files of incomplete kernels; to be called by the holder of the lock only."""
     if not killed and _looked_at.get(folder) == folder.stat().st_mtime_ns:
         return
     kernels = defaultdict(set)

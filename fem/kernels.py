@@ -23,22 +23,13 @@ _PATIENCE = 300
 
 
 def compiled_form(form: ufl.Form) -> fem.Form:
-    """Return a form with its kernels (collective).
-
-    Args:
-        form: of the language UFL, on one mesh.
-    """
+    """Return a form with its kernels (collective)."""
     with kernels_locked(form.ufl_domain().ufl_cargo().comm):
         return fem.form(form, jit_options=_jit_options())
 
 
 def compiled_expression(expression: ufl.core.expr.Expr, points: ArrayLike) -> fem.Expression:
-    """Return an expression with the kernel that evaluates it (collective).
-
-    Args:
-        expression: of the language UFL, on one mesh.
-        points: places in the reference cell, n × dimension.
-    """
+    """Return an expression with the kernel that evaluates it (collective)."""
     with kernels_locked(extract_unique_domain(expression).ufl_cargo().comm):
         return fem.Expression(expression, points, jit_options=_jit_options())
 

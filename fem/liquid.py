@@ -149,17 +149,7 @@ def liquid_space(
     condensed: bool = False,
     geometry: Geometry = PLANE,
 ) -> LiquidSpace:
-    """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
-
-    Args:
-        tank: the mesh.
-        degree: polynomial degree.
-        zero_potential: names of the surfaces on which ψ = 0.
-        layers: the liquids, from the bottom up.
-        continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
-        condensed: whether unknowns inside of cells are condensed, where loads act on surfaces alone.
-        geometry: what the plane of the mesh stands for.
-    """
+    """Space of ψ of the given degree; its degree does not depend on the mesh's (collective)."""
     space = fem.functionspace(tank.mesh, _lagrange(tank.mesh.topology.cell_name(), degree))
     index_map = space.dofmap.index_map
     layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
@@ -198,11 +188,7 @@ def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
 
 
 def cell_values(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
-    """Potentials at the degrees of freedom of each cell of this process, those inside of it too (collective).
-
-    Returns:
-        Shape (potentials, cells, functions).
-    """
+    """Potentials at the degrees of freedom of each cell of this process, those inside of it too (collective)."""
     numbering = liquid.numbering
     local = numbering.spread(np.array([potential.array_r for potential in potentials]))
     dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh))]
@@ -266,11 +252,7 @@ class LiquidSolver:
     """
 
     def __init__(self, matrix: PETSc.Mat, constrained: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
-        """Factorize (collective).
-
-        Raises:
-            EigenSolverError: if the matrix is not positive definite.
-        """
+        """Factorize (collective)."""
         self._block = matrix.copy()
         self._block.zeroRowsColumns((constrained + matrix.getOwnershipRange()[0]).astype(PETSc.IntType), diag=1.0)
         self._solver: PETSc.KSP | None = direct_solver(self._block)
@@ -332,7 +314,6 @@ class LiquidSolver:
         return answers
 
     def _sums(self, values: list[float]) -> np.ndarray:
-        """Sums over all processes."""
         total = np.array(values)
         self._comm.Allreduce(MPI.IN_PLACE, total)
         return total

@@ -30,13 +30,7 @@ class LiquidAnswer:
 
 
 def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, restoring: np.ndarray) -> LiquidAnswer:
-    """Return an answer.
-
-    Args:
-        potentials: A⁺C.
-        added_mass: (ρC)ᵀA⁺C, made symmetric here.
-        restoring: K_η, of the last unknowns; the first ones belong to bodies.
-    """
+    """Return an answer."""
     bodies = len(added_mass) - len(restoring)
     added_mass = 0.5 * (added_mass + added_mass.T)
     root = _inverse_of_lower(np.linalg.cholesky(restoring)).T

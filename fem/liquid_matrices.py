@@ -31,12 +31,7 @@ class LiquidMatrices:
 
 
 def liquid_matrices(liquid: LiquidSpace, surfaces: tuple[LiquidSurface, ...]) -> LiquidMatrices:
-    """Assemble what the problems on one space share (collective).
-
-    Args:
-        liquid: the space.
-        surfaces: the moving surfaces of the liquids.
-    """
+    """Assemble what the problems on one space share (collective)."""
     blocks = []
     mass = surface_mass_matrix(liquid, tuple(one.surface for one in surfaces)) if surfaces else None
     for surface in surfaces:
@@ -57,14 +52,7 @@ def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
 def surface_mass_matrix(
     liquid: LiquidSpace, names: tuple[str, ...], weight: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
 ) -> PETSc.Mat:
-    """Assemble S = ∫ψ q w over named surfaces, every unknown included (collective).
-
-    Args:
-        liquid: the space.
-        names: of the surfaces.
-        weight: returns w from cells, shape (facets,), and abscissas on their facets, shape (facets, points); by default
-            the weight of the geometry.
-    """
+    """Assemble S = ∫ψ q w over named surfaces, every unknown included (collective)."""
     more = 0 if is_straight(liquid.tank.mesh) else CURVED_QUADRATURE
     blocks = []
     for group in (group for name in names for group in facet_groups(liquid, name)):

@@ -75,14 +75,7 @@ class LiquidOperator(Protocol):
 
 
 def first_dof(liquid: LiquidUnknowns, layer: int, owned: tuple[int, int], comm: MPI.Comm) -> np.ndarray:
-    """The first of all unknowns of a layer, as a local index, on the process that owns it; empty elsewhere.
-
-    Args:
-        liquid: the unknowns.
-        layer: the layer.
-        owned: the first of this process's unknowns in the global numbering, and the one after its last.
-        comm: the processes (collective).
-    """
+    """The first of all unknowns of a layer, as a local index, on the process that owns it; empty elsewhere."""
     own = np.flatnonzero(liquid.owned_layer_of == layer)[:1]
     first, last = owned
     lowest = comm.allreduce(int(own[0]) + first if len(own) else np.iinfo(np.int64).max, op=MPI.MIN)

@@ -32,18 +32,7 @@ def build_pencil(
     of_bodies: list[np.ndarray],
     surfaces: tuple[LiquidSurface, ...],
 ) -> CoupledPencil[LiquidSpace]:
-    """Assemble the coupled problem.
-
-    Args:
-        liquid: space of the potential.
-        matrices: A on that space, and the blocks of the surfaces.
-        bodies: the floating bodies.
-        of_bodies: the loads of each on ψ, as of `loads_with_fluxes`.
-        surfaces: those of the liquids that move under gravity: free surface and interface.
-
-    Returns:
-        The matrices, with the liquid factorized (collective).
-    """
+    """Assemble the coupled problem."""
     laplace = matrices.laplace
     layers = closed_layers(liquid)
     fluxes = {body.surface: loads[-1] for body, loads in zip(bodies, of_bodies, strict=True)}
@@ -82,12 +71,7 @@ def surface_fluxes(
 
 def answered(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:
     """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation at once, after which a
-    product with a matrix takes the place of each; ``None`` on several processes, or with more unknowns than that.
-
-    Args:
-        pencil: the coupled problem.
-        most: largest number of surface unknowns.
-    """
+    product with a matrix takes the place of each; ``None`` on several processes, or with more unknowns than that."""
     if pencil.coupling.comm.size > 1 or not 0 < pencil.size <= most:
         return None
     assert isinstance(pencil.solver, LiquidSolver)

@@ -18,16 +18,7 @@ def residual_of(
     potential: PETSc.Vec,
     force: PETSc.Vec,
 ) -> float:
-    """Relative residual of a mode in the norm of K⁻¹ (collective).
-
-    Args:
-        pencil: the coupled problem.
-        solver: a factorization of K.
-        eigenvalue: λ.
-        displacement: ζ.
-        potential: ψ.
-        force: Kζ.
-    """
+    """Relative residual of a mode in the norm of K⁻¹ (collective)."""
     residual, image = force.copy(), force.duplicate()
     pencil.momentum.multTranspose(potential, image)
     residual.axpy(-eigenvalue, image)

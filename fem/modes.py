@@ -43,18 +43,6 @@ def solve_modes(
     Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
     surface, and nothing is shifted. Where the answer of the liquid to all surface unknowns is known and they are few,
     LAPACK finds all modes.
-
-    Args:
-        pencil: the coupled problem.
-        count: number of modes; fewer are returned if the model has fewer, or the highest are lost in rounding.
-        shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
-        tolerance: relative residual at which an eigenpair counts as converged.
-
-    Returns:
-        The modes (collective).
-
-    Raises:
-        EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     if pencil.answer is not None and not len(pencil.unstable):
         return _answered_modes(pencil, pencil.answer, (count, shapes), tolerance)
@@ -141,7 +129,6 @@ def _dense_solution(dense: DenseModes, count: int, tolerance: float) -> tuple[De
 def _mode_set(
     pencil: CoupledPencil, answer: LiquidAnswer, found: DenseSolution, count: int, shapes: int | None
 ) -> ModeSet:
-    """The lowest modes of a solution."""
     eigenvalues, residuals = found.modes.eigenvalues[:count], found.modes.residuals
 
     @cache

@@ -45,14 +45,7 @@ class Numbering:
         return (numbers[numbers >= 0] - self.first).astype(np.int32)
 
     def spread(self, values: np.ndarray) -> np.ndarray:
-        """Give every process the unknowns on its cells (collective).
-
-        Args:
-            values: several vectors, shape (vectors, owned unknowns).
-
-        Returns:
-            The same at the local degrees of freedom, zero inside of cells, shape (vectors, local degrees of freedom).
-        """
+        """Give every process the unknowns on its cells (collective)."""
         local = np.zeros((len(values), len(self.numbers)))
         local[:, self.owned_dofs] = values
         if self.space.mesh.comm.size > 1:
@@ -64,14 +57,7 @@ class Numbering:
         return local
 
     def summed(self, values: np.ndarray) -> np.ndarray:
-        """Sum contributions of all processes to local degrees of freedom (collective).
-
-        Args:
-            values: several vectors, shape (vectors, local degrees of freedom).
-
-        Returns:
-            The sums at the owned unknowns, shape (vectors, owned unknowns).
-        """
+        """Sum contributions of all processes to local degrees of freedom (collective)."""
         if self.space.mesh.comm.size > 1:
             vector = la.vector(self.space.dofmap.index_map)
             for row in values:
@@ -81,12 +67,7 @@ class Numbering:
         return values[:, self.owned_dofs]
 
     def assembled(self, blocks: Sequence[tuple[np.ndarray, np.ndarray]]) -> PETSc.Mat:
-        """Assemble a matrix on all unknowns from dense blocks (collective).
-
-        Args:
-            blocks: groups of blocks of one size: local degrees of freedom, all of them unknowns, shape (blocks, k), and
-                values, shape (blocks, k, k).
-        """
+        """Assemble a matrix on all unknowns from dense blocks (collective)."""
         comm, own = self.space.mesh.comm, len(self.owned_dofs)
         entries = np.zeros((1, len(self.numbers)))
         for dofs, _ in blocks:
@@ -105,12 +86,7 @@ class Numbering:
 
 
 def numbered(space: fem.FunctionSpace, *, condensed: bool) -> Numbering:
-    """Number the unknowns of a space (collective).
-
-    Args:
-        space: of scalar polynomials.
-        condensed: whether those inside of cells are left out.
-    """
+    """Number the unknowns of a space (collective)."""
     element, index_map = space.element.basix_element, space.dofmap.index_map
     everything = np.arange(element.dim)
     inside = np.array(element.entity_dofs[-1][0] if condensed else [], dtype=np.int64)

@@ -212,19 +212,7 @@ def coupled_pencil(
     solver: LiquidOperator,
     closed: tuple[int, ...],
 ) -> CoupledPencil[Unknowns]:
-    """Join the blocks of bodies and surfaces (collective).
-
-    Args:
-        liquid: the unknowns of ψ.
-        bodies: the floating bodies.
-        surfaces: those of the liquids that move under gravity.
-        body_coupling: load on ψ by a unit of each body unknown, N × body unknowns, which lie on rank 0; ``None``
-            without bodies.
-        surface_blocks: the blocks of each surface.
-        laplace: A, N × N.
-        solver: A⁺.
-        closed: the layers on whose boundary ψ = 0 nowhere.
-    """
+    """Join the blocks of bodies and surfaces (collective)."""
     couplings = [surface.coupling for surface in surface_blocks]
     coupling = _joined([couplings if body_coupling is None else [body_coupling, *couplings]])
     constraints, free_constants = _volume_constraints(liquid, coupling, closed)
@@ -243,13 +231,7 @@ def coupled_pencil(
 
 
 def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat) -> PETSc.Mat:
-    """Matrix of loads on ψ by body unknowns, which lie on rank 0 (collective).
-
-    Args:
-        columns: owned entries of each load.
-        count: number of loads.
-        laplace: A, whose rows it shares.
-    """
+    """Matrix of loads on ψ by body unknowns, which lie on rank 0 (collective)."""
     first_rank = laplace.comm.rank == 0
     rows = laplace.getLocalSize()[0]
     matrix = PETSc.Mat().createAIJ(((rows, PETSc.DETERMINE), (count if first_rank else 0, count)), comm=laplace.comm)

@@ -32,8 +32,6 @@ _DEPENDENT = 1e-8
 
 @dataclass
 class _Basis:
-    """Vectors v, Kv, K⁻¹M_c v, and ψ of v."""
-
     pencil: CoupledPencil
     kinetics: CondensedKinetics
     solver: PETSc.KSP
@@ -101,18 +99,7 @@ def refined_modes(
     beyond: bool = False,
     report: Report = lambda _message: None,
 ) -> ModeSet:
-    """Return as many of the lowest modes as there are approximate ones (collective).
-
-    Args:
-        pencil: the coupled problem, of bodies without growing motions.
-        approximate: displacements near those of the modes.
-        residual: relative residual, in the norm of K, at which a mode counts as converged.
-        beyond: whether the highest mode only shows what is beyond the others, with fewer digits.
-        report: receives messages on the progress.
-
-    Raises:
-        EigenSolverError: if a mode does not converge.
-    """
+    """Return as many of the lowest modes as there are approximate ones (collective)."""
     before, count = pencil.solver.solves, len(approximate)
     kinetics = CondensedKinetics(pencil, keeps=True)
     basis = _Basis(pencil, kinetics, direct_solver(kinetics.definite_stiffness))
@@ -183,13 +170,6 @@ def residual_bounds(values: np.ndarray, residuals: np.ndarray) -> np.ndarray:
 
     and r_i is a bound of some eigenvalue in any case. The smallest of these is returned. That no other eigenvalue is
     between those found is for a count of them to confirm.
-
-    Args:
-        values: θ, descending, shape (modes,).
-        residuals: r, in the norm of K, shape (modes,).
-
-    Returns:
-        Relative bounds, shape (modes,).
     """
     count, squares = len(values), residuals**2
     above, below = np.append(np.inf, values), np.append(values[1:], 0.0)

@@ -22,17 +22,7 @@ _BEYOND = 12
 
 
 def remaining_energy(ratio: float, sector: float, exponent: float, highest: int) -> np.ndarray:
-    """Energy of r^α that polynomials leave on the triangles of one ring.
-
-    Args:
-        ratio: σ, radius of the inner ring over that of the outer one.
-        sector: angle between the nodes of a ring, radians.
-        exponent: α.
-        highest: largest degree p of ψ.
-
-    Returns:
-        ∫|∇(ψ − ψ_p)|² for p = 0 … highest, up to a common factor.
-    """
+    """Energy of r^α that polynomials leave on the triangles of one ring."""
     ring = TipRings(centre=0.0, radii=np.array([ratio, 1.0]), angles=np.array([0.0, sector]))
     # Behind the fan of the innermost ring, which is one triangle a sector.
     corners = ring.nodes()[ring.triangles()[1:]]

@@ -48,11 +48,7 @@ class SurfaceTrace:
     potential: NDArray[np.float64]
 
     def between(self, start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The part of the surface from x = start to x = end, both of which are ends of facets.
-
-        Returns:
-            Abscissae, shape (points,), and ψ there, shape (modes, points).
-        """
+        """The part of the surface from x = start to x = end, both of which are ends of facets."""
         middle = 0.5 * (self.x[:, 0] + self.x[:, -1])
         inside = (middle > start) & (middle < end)
         x, potential = self.x[inside], self.potential[:, inside]
@@ -66,16 +62,7 @@ class SurfaceTrace:
 def sample_liquid(
     liquid: LiquidSpace, functions: list[fem.Function], chosen: NDArray[np.int32] | None = None
 ) -> LiquidSample | None:
-    """Evaluate ψ and ∇ψ on a subdivision of each cell, finer in larger cells.
-
-    Args:
-        liquid: the space of ψ.
-        functions: ψ of each mode.
-        chosen: cells that this process owns; all of them by default.
-
-    Returns:
-        The sample on rank 0, ``None`` elsewhere (collective).
-    """
+    """Evaluate ψ and ∇ψ on a subdivision of each cell, finer in larger cells."""
     mesh = liquid.tank.mesh
     if chosen is None:
         chosen = owned_cells(mesh)
@@ -149,17 +136,7 @@ def _subdivided_triangle(level: int) -> tuple[np.ndarray, np.ndarray]:
 def sample_surface(
     liquid: LiquidSpace, functions: list[fem.Function], name: str, layer: int = 0
 ) -> SurfaceTrace | None:
-    """ψ along a named line, at equal steps in each facet.
-
-    Args:
-        liquid: the space of ψ.
-        functions: ψ of each mode.
-        name: of the line.
-        layer: the liquid on whose side of it ψ is evaluated.
-
-    Returns:
-        The trace on rank 0, ``None`` elsewhere (collective).
-    """
+    """ψ along a named line, at equal steps in each facet."""
     count = 2 * liquid.degree + 1
     local = np.linspace(0.0, 1.0, count)[:, None]
     x: list[np.ndarray] = [np.empty((0, count))]

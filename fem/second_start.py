@@ -19,14 +19,6 @@ def lowest_beyond(pencil: CoupledPencil, modes: ModeSet, tolerance: float) -> fl
     """Return λ of the lowest mode that is orthogonal to some modes, from another start vector (collective).
 
     A mode that was missed, one of two with the same frequency say, has a part in a random vector.
-
-    Args:
-        pencil: the coupled problem, of bodies without growing motions.
-        modes: its lowest modes.
-        tolerance: relative residual that is accepted.
-
-    Raises:
-        EigenSolverError: if SLEPc stops before it has converged.
     """
     from slepc4py import SLEPc
 

@@ -78,22 +78,7 @@ def section_roll(
     mesh: TaggedMesh | None = None,
     report: Report = lambda _message: None,
 ) -> SectionRoll:
-    """Solve for the roll of a section (collective).
-
-    Args:
-        tank: a tank or open water with one body, a float that may roll and floats upright; in SI units.
-        tolerance: asked relative error.
-        modes: how many modes of a closed tank are looked at, from the lowest.
-        comm: MPI communicator.
-        title: of the section.
-        mesh: a mesh of a closed tank that the user brings (on rank 0), m.
-        report: called with a word on what is being done.
-
-    Raises:
-        SectionRollError: if the field solution does not keep its tolerance or has no distinct roll mode.
-        EigenSolverError: if the eigen-solver of a closed tank fails.
-        MeshError: if no mesh can be made, or the one that is given does not fit.
-    """
+    """Solve for the roll of a section (collective)."""
     if tank.is_open:
         problem = OpenWaterProblem(comm=comm, tank=tank, tolerance=tolerance, watch=Stopwatch())
         return _in_open_water(problem, title)
@@ -165,7 +150,6 @@ def _in_open_water(problem: OpenWaterProblem, title: str) -> SectionRoll:
 
 
 def _resonance(problem: OpenWaterProblem) -> complex:
-    """Complex frequency of the roll, rad/s."""
     asked = ResonanceRequest(count=len(problem.tank.bodies[0].rigid_motions))
     try:
         table = solve_resonance(problem, asked).table

@@ -36,11 +36,7 @@ def wave_levels(tank: Tank) -> tuple[StillLevel, ...]:
 def sample_level(
     tank: Tank, level: StillLevel, liquid: LiquidSpace, functions: list[fem.Function]
 ) -> SurfaceTrace | None:
-    """(ρψ below − ρψ above)/(ρ below − ρ above) along a still level, which is its elevation over λ.
-
-    Returns:
-        The trace on rank 0, ``None`` elsewhere (collective).
-    """
+    """(ρψ below − ρψ above)/(ρ below − ρ above) along a still level, which is its elevation over λ."""
     name = FREE_SURFACE if level.above is None else INTERFACE
     below = sample_surface(liquid, functions, name, level.below)
     above = sample_surface(liquid, functions, name, level.above) if level.above is not None else None
@@ -84,13 +80,7 @@ class BodyShapes:
 
 
 def body_shapes(tank: Tank, bodies: tuple[Body, ...], amplitudes: Array) -> BodyShapes:
-    """Displace the bodies of a tank.
-
-    Args:
-        tank: the scene.
-        bodies: all of its bodies.
-        amplitudes: of their unknowns.
-    """
+    """Displace the bodies of a tank."""
     beams, floats, motions, leading = [], [], [], [0.0]
     parts = np.split(amplitudes, np.cumsum([body.size for body in bodies])[:-1]) if bodies else []
     for index, (body, own) in enumerate(zip(bodies, parts, strict=True)):

@@ -25,15 +25,7 @@ _AT_CORNER = 1e-3
 
 
 def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
-    """Integrate every shape of a body against every basis function of ψ.
-
-    Args:
-        liquid: space of ψ on simplices.
-        body: the body.
-
-    Returns:
-        ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
-    """
+    """Integrate every shape of a body against every basis function of ψ."""
     (loads,) = loads_with_fluxes(liquid, (body,))
     return loads[:-1]
 
@@ -75,11 +67,7 @@ def _by_corner(body: Body, group: FacetGroup) -> Iterator[tuple[int, FacetGroup]
 
 
 def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
-    """Integrate every basis function of ψ over named surfaces.
-
-    Returns:
-        ∫q, owned entries (collective).
-    """
+    """Integrate every basis function of ψ over named surfaces."""
     load = np.zeros((1, len(liquid.layer_of)))
     for name in names:
         for group in facet_groups(liquid, name):
@@ -139,14 +127,7 @@ class FacetQuadrature:
 def facet_quadrature(
     liquid: LiquidSpace, group: FacetGroup, wavenumber: float, singular_corner: int
 ) -> FacetQuadrature:
-    """Quadrature for functions of a wavenumber times polynomials of ψ's degree.
-
-    Args:
-        liquid: space of ψ.
-        group: the facets.
-        wavenumber: of the functions.
-        singular_corner: number of the facets' corner towards which points are clustered, or −1.
-    """
+    """Quadrature for functions of a wavenumber times polynomials of ψ's degree."""
     count = ceil(0.5 * liquid.degree + 0.5 * wavenumber * group.longest) + _SPARE_POINTS
     if singular_corner >= 0:
         # In s the basis has twice the degree.

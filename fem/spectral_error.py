@@ -42,21 +42,7 @@ _AT_ONCE, _MANY = 64, 10
 
 
 def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], exponents: np.ndarray | None = None) -> np.ndarray:
-    """Estimate (λ_h − λ)/λ of modes at unit generalized mass, cell by cell.
-
-    Args:
-        liquid: space of ψ, of degree `LOWEST_DEGREE` or more, on simplices.
-        potentials: ψ of each mode.
-        exponents: α of the owned cells that touch a corner with ψ ~ r^α, infinite elsewhere, shape (cells,). There the
-            s_k fall like k^{−(4α + 1)} in the end, which a smooth part hides from the degrees that are seen: what is
-            missing is p/(4α) times the last one at least.
-
-    Returns:
-        The part of each owned cell, shape (modes, cells); their sum over all cells and processes is the estimate.
-
-    Raises:
-        ValueError: if the degree is too low.
-    """
+    """Estimate (λ_h − λ)/λ of modes at unit generalized mass, cell by cell."""
     if liquid.degree < LOWEST_DEGREE:
         raise ValueError(f"errors are seen from degree {LOWEST_DEGREE} on, got {liquid.degree}")
     mesh = liquid.tank.mesh
@@ -86,7 +72,6 @@ def missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, four
 
 
 def _series(last: np.ndarray, ratio: np.ndarray) -> np.ndarray:
-    """The remainder of a geometric series after its last term."""
     rest: np.ndarray = last * ratio / (1.0 - ratio)
     return rest
 
@@ -111,13 +96,7 @@ def _straight_energies(liquid: LiquidSpace) -> Energies:
 
 
 def straight_coefficients(liquid: LiquidSpace) -> tuple[Callable[[np.ndarray], np.ndarray], np.ndarray]:
-    """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients.
-
-    Returns:
-        From values of ψ in each cell (potentials, cells, functions) to the coefficients of ∇ψ in the degrees p − 1 …
-        p − 4, whose squares add up to ∫|∇ψ|², shape (potentials, cells, dim, polynomials); and where the polynomials of
-        the second to the fourth of these degrees begin.
-    """
+    """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients."""
     inverse, measure = liquid.cells.straight
     scaled = inverse.transpose(0, 2, 1) * np.sqrt(measure)[:, None, None]
     table, starts = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
@@ -171,12 +150,7 @@ def _curved_parts(
     liquid: LiquidSpace,
 ) -> tuple[Callable[[np.ndarray], Iterator[tuple[slice, np.ndarray]]], list[int]]:
     """On curved cells √(det J) ∇ψ is nearly a polynomial, and its coefficients come from quadrature; ∫|∇ψ|² stays
-    exact.
-
-    Returns:
-        From values of ψ in each cell to those in some cells at a time, shape (cells, coefficients, dim, potentials),
-        and where the coefficients of the degrees p − 4 … p − 1 begin, with their number.
-    """
+    exact."""
     mesh = liquid.tank.mesh
     element = liquid.space.element.basix_element
     points, weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + CURVED_QUADRATURE)
@@ -216,12 +190,7 @@ def _polynomials(cell_type: basix.CellType, degree: int, points: np.ndarray) -> 
 
 @lru_cache(maxsize=16)
 def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients of the reference gradient of each basis function in orthonormal polynomials.
-
-    Returns:
-        Those of the degrees p − 1 down to p − 4, shape (dim, polynomials, functions), and where the second to the
-        fourth of these degrees begin.
-    """
+    """Coefficients of the reference gradient of each basis function in orthonormal polynomials."""
     element = basix.ufl.element("Lagrange", cell_type.name, degree).basix_element
     points, weights = basix.make_quadrature(cell_type, 2 * degree - 2)
     slopes = element.tabulate(1, points)[1:, :, :, 0]

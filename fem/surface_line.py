@@ -18,13 +18,7 @@ _ROUNDING = 1e-9
 def along_the_surface(
     liquid: LiquidSpace, potentials: list[PETSc.Vec], farthest: float = np.inf
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return x, ascending, shape (points,), and ψ, shape (potentials, points), on every process (collective).
-
-    Args:
-        liquid: space of ψ.
-        potentials: real ψ on all unknowns.
-        farthest: x up to which facets are taken.
-    """
+    """Return x, ascending, shape (points,), and ψ, shape (potentials, points), on every process (collective)."""
     functions = as_functions(liquid, potentials)
     places, found = [np.zeros(0)], [np.zeros((len(functions), 0))]
     for group in facet_groups(liquid, FREE_SURFACE):

@@ -25,15 +25,7 @@ def rigid_shapes(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return normal displacements by combinations of rigid motions, as `Shapes`.
-
-    Args:
-        displacement: motion and points → displacements (gdim, n).
-        motions: the motions.
-        turn: the combinations as columns, shape (motions, functions).
-        points: see `Shapes`.
-        normals: see `Shapes`.
-    """
+    """Return normal displacements by combinations of rigid motions, as `Shapes`."""
     outwards = [(displacement(motion, points) * normals).sum(axis=0) for motion in motions]
     shapes: NDArray[np.float64] = turn.T @ np.reshape(outwards, (len(motions), points.shape[1]))
     return shapes

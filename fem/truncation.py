@@ -18,16 +18,7 @@ _ORDER = 7.0
 
 
 def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenvalues: np.ndarray) -> np.ndarray:
-    """Estimate (λ_h − λ)/λ by the shapes that the bases leave out.
-
-    Args:
-        bodies: the bodies.
-        amplitudes: of their shapes at unit generalized mass, shape (modes, shapes of all bodies).
-        eigenvalues: λ, shape (modes,).
-
-    Returns:
-        The estimate for each mode, shape (modes,).
-    """
+    """Estimate (λ_h − λ)/λ by the shapes that the bases leave out."""
     errors = np.zeros(len(eigenvalues))
     first = 0
     for body in bodies:

@@ -22,14 +22,7 @@ _AREA_ROUNDING = 1e-9
 
 
 def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]:
-    """Join the rings and the cells of gmsh.
-
-    Returns:
-        The mesh of straight triangles, and the cells at each curve of the outline.
-
-    Raises:
-        MeshError: if curves cross or a slit is too short to be opened.
-    """
+    """Join the rings and the cells of gmsh."""
     joined = _joined(layout, filling)
     outline = layout.outline
     _check_areas(outline, joined)
@@ -111,11 +104,7 @@ def _joined(layout: Layout, filling: Filling) -> _Joined:
 
 
 def _check_areas(outline: Outline, joined: _Joined) -> None:
-    """Check that the area of the mesh is that of the domain: gmsh reports no crossing lines.
-
-    Raises:
-        MeshError: naming the region.
-    """
+    """Check that the area of the mesh is that of the domain: gmsh reports no crossing lines."""
     corners = joined.points[joined.cells]
     areas = 0.5 * _cross(corners[:, 2] - corners[:, 0], corners[:, 1] - corners[:, 0])
     for index, region in enumerate(outline.regions):
@@ -143,15 +132,7 @@ def _sides(
     starts: NDArray[np.int64],
     stops: NDArray[np.int64],
 ) -> list[Sides]:
-    """The cells at the edges of each curve, those at each edge one after the other.
-
-    Args:
-        joined: all cells.
-        edges: their edges.
-        lined: the edges of the curves in order, one curve after the other.
-        starts: the first node of each of them.
-        stops: the number of edges up to the end of each curve.
-    """
+    """The cells at the edges of each curve, those at each edge one after the other."""
     # An edge has the places 3 · cell + opposite corner.
     flat = edges.places.ravel()
     element_of = np.full(len(edges.nodes), -1)

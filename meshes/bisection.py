@@ -14,12 +14,7 @@ from hydroelastic.physics.arrays import FloatArray
 
 
 def bisected(places: FloatArray, parts: int) -> NDArray[np.int32]:
-    """Return the part of each place; all have as many, but for one at most from each division.
-
-    Args:
-        places: shape (places, dim).
-        parts: number of parts.
-    """
+    """Return the part of each place; all have as many, but for one at most from each division."""
     part_of = np.zeros(len(places), dtype=np.int32)
     if parts == 1 or not len(places):
         return part_of

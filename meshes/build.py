@@ -32,22 +32,6 @@ def build_mesh(
     The groups are the names of regions for the cells and those of curves for the edges. All ends of curves are nodes.
     Along curves that are `cut` both sides have nodes of their own, of the same coordinates, and each edge has a facet
     for either side. Where a curved piece is too coarse for its cells its elements are halved.
-
-    Args:
-        outline: the domain.
-        bulk_size: largest element anywhere, in the outline's unit of length.
-        growth: increase of the element size per unit of distance from curves with a size, curved ones and rings.
-        ring_ratio: ratio of the radii of successive rings around the corners.
-        geometry_degree: polynomial degree of the cells at curved pieces; 1 leaves all cells straight.
-        largest_turn: of a curve's direction within an element, radians.
-
-    Returns:
-        The mesh, on the calling process only.
-
-    Raises:
-        MeshError: if gmsh fails, if the angle between two curves at a corner is too small, if a slit is too short to be
-            opened, or if no
-            mesh fine enough for the curved pieces is found.
     """
     # Elements on straight lines are made by gmsh: only curved ones can be refined here.
     refinements = _REFINEMENTS if any(curve.path is not None for curve in outline.curves) else 0
@@ -68,11 +52,7 @@ def build_mesh(
 
 
 def _curved(mesh: TaggedMesh, layout: Layout, sides: list[Sides], degree: int) -> TaggedMesh:
-    """Curve the cells at curved pieces and measure how far their edges are from these.
-
-    Raises:
-        MeshError: if a cell is inverted, or nearly so.
-    """
+    """Curve the cells at curved pieces and measure how far their edges are from these."""
     pieces = [(edges, side) for number, side in enumerate(sides) if (edges := layout.curved_edges(number)) is not None]
     if not pieces:
         return mesh

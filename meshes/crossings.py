@@ -7,15 +7,7 @@ from numpy.typing import NDArray
 
 
 def crossing_pair(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> tuple[int, int] | None:
-    """Two segments that meet elsewhere than at common ends.
-
-    Args:
-        starts: first points of the segments in any unit, shape (n, 2).
-        ends: last points of the segments, shape (n, 2).
-
-    Returns:
-        Their indices, ``None`` if there are none.
-    """
+    """Two segments that meet elsewhere than at common ends."""
     # Side of each segment on which each end of each other one lies, shape (segments, others).
     from_start, from_end = (_sides(starts, ends, points) for points in (starts, ends))
     across = from_start * from_end < 0.0
@@ -37,7 +29,6 @@ def _sides(starts: NDArray[np.float64], ends: NDArray[np.float64], points: NDArr
 def _within(
     starts: NDArray[np.float64], ends: NDArray[np.float64], points: NDArray[np.float64], sides: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Whether a point lies on a segment between its ends."""
     edges = (ends - starts)[:, None]
     along = ((points - starts[:, None]) * edges).sum(axis=2)
     inside: NDArray[np.bool_] = (sides == 0.0) & (along > 0.0) & (along < (edges**2).sum(axis=2))

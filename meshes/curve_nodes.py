@@ -139,12 +139,6 @@ def bend_sources(outline: Outline, number: int, span: tuple[float, float], large
 
     Elements are as large as the curve allows, or smaller: they turn by at most ``largest_turn``, and their chord is off
     the curve by at most an eighth of the way to other curves.
-
-    Args:
-        outline: the domain.
-        number: index of the curve.
-        span: parameters between which it is cut into elements.
-        largest_turn: radians.
     """
     curve = outline.curves[number]
     points = curve.at(curve_samples(curve, *span, largest_turn))
@@ -206,11 +200,6 @@ def straight_elements(
 
     Elements take equal parts of ∫ds/h, where h grows along a line by at most `_GROWTH_ALONG`. It is sampled so finely
     that no small size is overlooked: a sample is off by at most the growth of the size field times the distance.
-
-    Args:
-        starts: first points, shape (lines, 2).
-        ends: last points, shape (lines, 2).
-        size: element size wanted.
     """
     lengths = np.hypot(*(ends - starts).T)
     line = np.repeat(np.arange(len(starts)), _FIRST_PARTS + 1)

@@ -110,16 +110,7 @@ class Sides:
 def curve_cells(
     corners: NDArray[np.float64], pieces: list[tuple[CurvedEdges, Sides]], degree: int
 ) -> CurvedCells | None:
-    """Curve the cells at curved pieces.
-
-    Args:
-        corners: of all cells, shape (cells, 3, 2).
-        pieces: curved pieces with the cells at them.
-        degree: of the geometry, at least 2.
-
-    Returns:
-        The curved cells, ``None`` if there are none.
-    """
+    """Curve the cells at curved pieces."""
     reference = geometry_element(degree).points
     barycentric = np.column_stack([1.0 - reference.sum(axis=1), reference])
     chosen, moves = [], []
@@ -177,7 +168,6 @@ def _heights_at(x: NDArray[np.float64], blend: NDArray[np.float64]) -> NDArray[n
 
 
 def _slopes_at(x: NDArray[np.float64], blend: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Its derivative by s."""
     slopes: NDArray[np.float64] = -x * chebval(x, blend) + 0.5 * (1.0 - x**2) * chebval(x, chebder(blend))
     return slopes
 

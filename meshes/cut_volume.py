@@ -23,13 +23,7 @@ _DIM = 3
 
 
 def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -> NodedMesh:
-    """Double the nodes of named faces.
-
-    Args:
-        mesh: tetrahedra, whose named faces are part of it.
-        names: those that are cut.
-        kept: those of them that keep their names, on both sides.
-    """
+    """Double the nodes of named faces."""
     element = basix.create_element(
         basix.ElementFamily.P, basix.CellType.tetrahedron, mesh.degree, basix.LagrangeVariant.gll_warped
     )
@@ -72,9 +66,6 @@ def with_regions(mesh: NodedMesh) -> NodedMesh:
     """Name the parts of a liquid that share no node ``liquid_1``, ``liquid_2``, …, where there are several.
 
     The interface of two of them is then named ``interface:lower_liquid_1:upper_liquid_2``, say.
-
-    Raises:
-        MisplacedError: if nothing moves in a part.
     """
     count, part = connected_parts(mesh.cells)
     if count == len(mesh.cell_names):
@@ -125,7 +116,6 @@ def connected_parts(cells: NDArray[np.int64]) -> tuple[int, NDArray[np.int32]]:
 
 
 def _find(faces: NDArray[np.int64], wanted: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Where each of some faces stands among all."""
     width = int(faces.max()) + 1
     powers = np.array([width**2, width, 1])
     found: NDArray[np.int64] = np.searchsorted(faces @ powers, wanted @ powers)

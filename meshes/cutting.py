@@ -15,16 +15,7 @@ from hydroelastic.meshes.edges import EDGE_CORNERS, Edges
 def cut_open(
     cells: NDArray[np.int64], edges: Edges, cut: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Double nodes along edges.
-
-    Args:
-        cells: nodes of each triangle, shape (triangles, 3).
-        edges: their edges.
-        cut: indices of the edges to cut.
-
-    Returns:
-        The cells with their new nodes, and for each node, new ones last, the node from which it is copied.
-    """
+    """Double nodes along edges."""
     # Slow to import, so only where there is something to cut.
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

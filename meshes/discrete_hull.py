@@ -27,11 +27,7 @@ _PIECES = 100
 
 
 def add_hulls(floats: dict[str, SolidFloat]) -> dict[str, list[int]]:
-    """Add the wetted surfaces of hulls to an empty model; return the numbers of their faces, by the hull's name.
-
-    Raises:
-        MeshError: if gmsh cannot parametrize a surface.
-    """
+    """Add the wetted surfaces of hulls to an empty model; return the numbers of their faces, by the hull's name."""
     if not floats:
         return {}
     mesh, count, every = gmsh.model.mesh, 1, {}
@@ -72,20 +68,7 @@ def release_numbers() -> None:
 
 
 def join_hulls(liquid: int, surfaces: list[int], hulls: dict[str, list[int]]) -> tuple[int, list[int], int]:
-    """Replace a volume of OpenCASCADE by one that leaves out hulls.
-
-    Args:
-        liquid: its number.
-        surfaces: its faces in the still surface that are water.
-        hulls: faces of each hull.
-
-    Returns:
-        Numbers of the volume, of the still surfaces around the hulls and in their moonpools, and of that which they
-        replace.
-
-    Raises:
-        MisplacedError: if a waterline does not lie in one face of still water.
-    """
+    """Replace a volume of OpenCASCADE by one that leaves out hulls."""
     geo, model = gmsh.model.geo, gmsh.model
     waterlines = [
         loop
@@ -158,14 +141,12 @@ def _encloses(line: FloatArray, place: FloatArray) -> bool:
 
 
 def _holds(face: int, loop: list[int]) -> bool:
-    """Whether all points of a loop of curves are inside a face."""
     points: list[FloatArray] = [np.array(gmsh.model.mesh.getNodes(1, tag, True)[1]) for tag in loop]
     places = np.concatenate(points)
     return bool(gmsh.model.isInside(2, face, places.tolist()) == len(places) // 3)
 
 
 def _loops(curves: list[int]) -> list[list[int]]:
-    """Curves that meet at their ends, in order."""
     ends = {tag: {point for _, point in gmsh.model.getBoundary([(1, tag)], oriented=False)} for tag in set(curves)}
     loops = []
     while ends:

@@ -83,15 +83,7 @@ class NodedMesh:
 
 
 def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
-    """Distribute a mesh of triangles over the processes of ``comm``.
-
-    Args:
-        comm: communicator.
-        tagged: the whole mesh on rank 0; ``None`` on the others.
-
-    Returns:
-        The distributed mesh (collective).
-    """
+    """Distribute a mesh of triangles over the processes of ``comm``."""
     noded = None
     if comm.rank == 0:
         assert tagged is not None

@@ -50,17 +50,7 @@ _ALONG_EDGE, _BEHIND_EDGE = [0, 4, 5, 1, 6, 7], [2, 4, 6, 3, 5, 7]
 
 
 def with_edge_layers(mesh: NodedMesh, segments: _Ints, corners: _Ints, layers: int) -> NodedMesh:
-    """Cut the cells at singular edges into layers.
-
-    Args:
-        mesh: tetrahedra, straight or curved.
-        segments: the edges of cells that make up the singular edges, by their ends, shape (n, 2).
-        corners: the ends in which they meet at an angle, shape (m,).
-        layers: number of cuts.
-
-    Returns:
-        The mesh. Parts of a curved cell have its shape.
-    """
+    """Cut the cells at singular edges into layers."""
     if not layers or not len(segments):
         return mesh
     parts = _Parts(

@@ -26,9 +26,6 @@ def save_mesh(mesh: TaggedMesh, path: Path) -> None:
 
     A `.msh` file carries the physical names itself; beside `.vtu` and `.xdmf`, which have no place for them, a small
     ``<file>.names.json`` is written.
-
-    Raises:
-        MeshError: if the suffix is none of `FORMATS`, or if cells are curved.
     """
     _check_suffix(path)
     if mesh.curved is not None:
@@ -57,11 +54,7 @@ def save_mesh(mesh: TaggedMesh, path: Path) -> None:
 
 
 def load_mesh(path: Path) -> TaggedMesh:
-    """Read a mesh of straight triangles with named groups, ours or the user's own.
-
-    Raises:
-        MeshError: if the file is missing, of another format, or holds no triangles, tags or names.
-    """
+    """Read a mesh of straight triangles with named groups, ours or the user's own."""
     _check_suffix(path)
     if not path.is_file():
         raise MeshError(f"mesh file {path} does not exist")

@@ -57,16 +57,7 @@ class Filling:
 
 
 def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], size: SizeField) -> Filling:
-    """Triangulate regions.
-
-    Args:
-        points: those of all lines, in the order in which they are to be numbered, arrays of shape (n, 2).
-        loops: clockwise boundary of each region.
-        size: element size wanted.
-
-    Raises:
-        MeshError: if gmsh fails.
-    """
+    """Triangulate regions."""
     with gmsh_model():
         drawing = _Drawing(points)
         surfaces = [drawing.surface(loop) for loop in loops]
@@ -127,8 +118,6 @@ def _initialize_gmsh() -> None:
 
 
 class _Drawing:
-    """Points and lines in gmsh, each created once."""
-
     def __init__(self, points: Iterable[NDArray[np.float64]]) -> None:
         # Nodes are numbered as the points are, before all others.
         self._nodes: dict[Point, int] = {}

@@ -48,7 +48,6 @@ class TankGeometry:
     mirrored: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse gaps and overlaps."""
         ends = [0.0, *(segment.end for segment in self.segments)]
         starts = [*(segment.start for segment in self.segments), self.length]
         if ends != starts or any(segment.start >= segment.end for segment in self.segments):

@@ -12,12 +12,7 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 
 def geometry_nodes(mesh: TaggedMesh) -> tuple[NDArray[np.float64], NDArray[np.int64], int]:
-    """Nodes and cells of the geometry's degree: straight cells get straight nodes.
-
-    Returns:
-        Nodes, those of the mesh first, shape (nodes, 2); numbers of each cell's nodes in the order of
-        ``basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))``, shape (cells, nodes per cell); the degree.
-    """
+    """Nodes and cells of the geometry's degree: straight cells get straight nodes."""
     if mesh.curved is None:
         return mesh.points, mesh.cells, 1
     degree = mesh.curved.degree

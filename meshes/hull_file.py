@@ -47,16 +47,7 @@ _IN_LEVEL, _JUST_ABOVE = 1e-7, 1e-4
 
 
 def wetted_hull(file: Path, *, draught: float | None = None, volume: float | None = None) -> WettedHull:
-    """Measure the wetted part of a hull.
-
-    Args:
-        file: solid of CAD or triangles, m.
-        draught: depth of its lowest point, m.
-        volume: that it displaces, m³; with neither its z = 0 is the still level.
-
-    Raises:
-        MeshError: if it cannot be read, is not closed or crosses itself, or does not displace such a volume.
-    """
+    """Measure the wetted part of a hull."""
     return _wetted_hull(file, draught, volume, file.stat().st_mtime_ns)
 
 
@@ -144,11 +135,7 @@ def _level_of(file: Path, volume: float, low: float, high: float) -> float:
 
 
 def extent(file: Path) -> tuple[float, float]:
-    """Return the least and the largest z of a hull, m.
-
-    Raises:
-        MeshError: if it cannot be read.
-    """
+    """Return the least and the largest z of a hull, m."""
     if file.suffix.lower() == ".stl":
         heights = triangles_of(file, file.stat().st_mtime_ns).points[:, 2]
         return float(heights.min()), float(heights.max())
@@ -159,11 +146,7 @@ def extent(file: Path) -> tuple[float, float]:
 
 @lru_cache(maxsize=8)
 def triangles_of(file: Path, _changed: int) -> Triangles:
-    """Return the triangles of a file, m; corners at one place are one.
-
-    Raises:
-        MeshError: if there are none.
-    """
+    """Return the triangles of a file, m; corners at one place are one."""
     every, corners = np.unique(_corners_of_triangles(file), axis=0, return_inverse=True)
     pairs = cKDTree(every).query_pairs(_SAME_PLACE * np.ptp(every, axis=0).max(), output_type="ndarray")
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(every), len(every)))
@@ -200,11 +183,7 @@ def _corners_of_triangles(file: Path) -> NDArray[np.float64]:
 
 
 def wetted_triangles(file: Path, level: float) -> Triangles:
-    """Return those below a level, which becomes z = 0.
-
-    Raises:
-        MeshError: if they and the level do not close a body.
-    """
+    """Return those below a level, which becomes z = 0."""
     wetted = triangles_of(file, file.stat().st_mtime_ns).below(level)
     try:
         wetted.require_closed()
@@ -214,11 +193,7 @@ def wetted_triangles(file: Path, level: float) -> Triangles:
 
 
 def hydrostatics_at(file: Path, level: float) -> tuple[Hydrostatics, np.ndarray]:
-    """Return the hydrostatics of a hull immersed to a level, and the extremes of its wetted part, shape (2, 3).
-
-    Raises:
-        MeshError: if the wetted part is not closed.
-    """
+    """Return the hydrostatics of a hull immersed to a level, and the extremes of its wetted part, shape (2, 3)."""
     if file.suffix.lower() == ".stl":
         wetted = wetted_triangles(file, level)
         return wetted.hydrostatics(), np.array([wetted.points.min(axis=0), wetted.points.max(axis=0)])
@@ -233,11 +208,7 @@ def _solid(file: Path) -> Iterator[_Entities]:
 
 
 def hull_solid(file: Path, metres: float) -> _Entities:
-    """Read the one solid of a file into the current model, in a unit of length.
-
-    Raises:
-        MeshError: if there is not one.
-    """
+    """Read the one solid of a file into the current model, in a unit of length."""
     solids = solids_in(file, metres)
     if len(solids) != 1:
         raise MeshError(f"{file} holds {len(solids)} solids; a hull is one")

@@ -29,16 +29,7 @@ _MOST_NAMED = 3
 
 
 def opened_along_baffles(mesh: TaggedMesh, file: str) -> TaggedMesh:
-    """Double the nodes of the edges in the group ``baffle``, where they are not doubled yet.
-
-    Args:
-        mesh: triangles, m.
-        file: its name, for messages.
-
-    Raises:
-        MeshError: if tagged edges are no edges of triangles, if there are walls that are not declared, or if walls
-            divide the liquid.
-    """
+    """Double the nodes of the edges in the group ``baffle``, where they are not doubled yet."""
     edges = edges_of(mesh.cells)
     try:
         tagged = edges.find(mesh.facets)
@@ -64,17 +55,7 @@ def opened_along_baffles(mesh: TaggedMesh, file: str) -> TaggedMesh:
 def require_declared_walls(
     points: NDArray[np.float64], cells: NDArray[np.int64], declared: NDArray[np.int64], file: str
 ) -> float:
-    """Return the length or area of the declared walls inside of the liquid, m or m².
-
-    Args:
-        points: nodes, m, shape (nodes, dim).
-        cells: their corners, shape (cells, dim + 1); none of them is flat.
-        declared: corners of declared facets, shape (facets, dim).
-        file: its name, for messages.
-
-    Raises:
-        MeshError: if there are walls that are not declared, or parts of the liquid that nothing joins.
-    """
+    """Return the length or area of the declared walls inside of the liquid, m or m²."""
     facets, opposite = boundary_facets(cells)
     middles, edges = points[facets].mean(axis=1), points[facets[:, 1:]] - points[facets[:, :1]]
     sizes = np.linalg.norm(edges, axis=2).max(axis=1)
@@ -117,11 +98,7 @@ def require_declared_walls(
 
 
 def boundary_facets(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the facets that only one cell has, with its opposite corner.
-
-    Raises:
-        MeshError: if more than two cells have one.
-    """
+    """Return the facets that only one cell has, with its opposite corner."""
     corners = np.arange(cells.shape[1])
     facets = np.concatenate([np.delete(cells, corner, axis=1) for corner in corners])
     _, first, count = np.unique(np.sort(facets, axis=1), axis=0, return_index=True, return_counts=True)
@@ -149,7 +126,6 @@ def _are_inside(places: NDArray[np.float64], corners: NDArray[np.float64]) -> ND
 
 
 def _box(points: NDArray[np.float64], extent: float) -> str:
-    """Words for the box around some points."""
     ranges = zip("xyz", *(f(points.reshape(-1, points.shape[-1]), axis=0) for f in (np.min, np.max)), strict=False)
     return ", ".join(
         f"{axis} = {low:.4g} m" if high - low < _SAME_PLACE * extent else f"{low:.4g} < {axis} < {high:.4g} m"

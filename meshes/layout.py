@@ -94,11 +94,7 @@ class Layout:
         )
 
     def check_crossings(self) -> None:
-        """Check that lines meet at common ends only.
-
-        Raises:
-            MeshError: naming the curves.
-        """
+        """Check that lines meet at common ends only."""
         names, chains = [], []
         for line in {line.key: line for loop in self.loops() for line in loop}.values():
             curve = self.outline.curves[line.key] if isinstance(line.key, int) else None
@@ -133,21 +129,7 @@ class Layout:
 def lay_out(
     outline: Outline, *, bulk_size: float, growth: float, ring_ratio: float, largest_turn: float
 ) -> tuple[Layout, SizeField]:
-    """Create rings and the elements of curved pieces.
-
-    Args:
-        outline: the domain.
-        bulk_size: largest element, in the unit of the outline.
-        growth: growth of elements per distance from a curve, dimensionless.
-        ring_ratio: ratio of the radii of successive rings.
-        largest_turn: largest change of direction of a curve along an element, rad.
-
-    Returns:
-        The layout, and the size field for the rest.
-
-    Raises:
-        MeshError: if the angle of a region at a corner is too small.
-    """
+    """Create rings and the elements of curved pieces."""
     radii = {
         graded.point: ring_radii(graded.inner, outermost_ring(outline, graded, largest_turn), ring_ratio)
         for graded in outline.graded_points

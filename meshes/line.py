@@ -24,16 +24,7 @@ _GROWTH = 4.0
 
 
 def travel_nodes(count: int, bottom: float, slope: float) -> NDArray[np.float64]:
-    """Nodes between which waves travel for equal times.
-
-    Args:
-        count: elements.
-        bottom: a, the square of the wave speed at x = 0.
-        slope: b, with a + b > 0.
-
-    Returns:
-        Coordinates from 0 to 1, shape (count + 1,).
-    """
+    """Nodes between which waves travel for equal times."""
     lowest, highest = np.sqrt(bottom), np.sqrt(bottom + slope)
     part = np.linspace(0.0, 1.0, count + 1)
     speed = lowest + (highest - lowest) * part
@@ -44,16 +35,7 @@ def travel_nodes(count: int, bottom: float, slope: float) -> NDArray[np.float64]
 
 
 def graded_nodes(nodes: NDArray[np.float64], bottom: float, slope: float) -> NDArray[np.float64]:
-    """Divide elements that are long relative to their distance from the zero of a + bx outside the line.
-
-    Args:
-        nodes: coordinates from 0 to 1, increasing.
-        bottom: a.
-        slope: b.
-
-    Returns:
-        The nodes with those added, increasing.
-    """
+    """Divide elements that are long relative to their distance from the zero of a + bx outside the line."""
     pieces: list[NDArray[np.float64]] = [nodes[:1]]
     for start, end in pairwise(nodes):
         first, last = bottom + slope * start, bottom + slope * end
@@ -67,16 +49,7 @@ def graded_nodes(nodes: NDArray[np.float64], bottom: float, slope: float) -> NDA
 
 
 def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64], *, ghosts: bool = False) -> Mesh:
-    """Distribute a line over the processes.
-
-    Args:
-        comm: communicator.
-        nodes: coordinates, increasing, the same on all processes.
-        ghosts: whether each process has both elements at its nodes, which integrals over inner nodes need.
-
-    Returns:
-        A mesh of intervals (collective).
-    """
+    """Distribute a line over the processes."""
     element = basix.ufl.element("Lagrange", "interval", 1, shape=(1,))
     count = len(nodes) - 1
     if comm.rank == 0:

@@ -22,9 +22,6 @@ def narrow_gaps(tank: VolumeTank) -> Iterator[tuple[FloatArray, float]]:
     """Yield the place in the plan, and the size of cells there, of gaps beside round columns.
 
     A chord of the length h is h²/8r from its arc, so that h = √(8 r gap) would reach the other wall.
-
-    Args:
-        tank: a dimensionless tank.
     """
     discs = [one for one in tank.columns if isinstance(one, Disc)]
     for disc in discs:

@@ -83,7 +83,6 @@ class Sources:
 
     @cached_property
     def _spans(self) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-        """Segments as numbers d, and d̄/|d|², zero for points."""
         spans = self.ends - self.starts
         squares = np.abs(spans) ** 2
         return spans, spans.conj() / np.where(squares > 0.0, squares, 1.0)

@@ -44,15 +44,7 @@ class NestedMeshes:
     graded_points: tuple[GradedPoint, ...]
 
     def mesh(self, halvings: int, exponents: tuple[float, ...] | None = None) -> TaggedMesh:
-        """One mesh of the series, on the calling process only.
-
-        Args:
-            halvings: how often all elements of the first mesh are halved.
-            exponents: β ≥ 1 of each corner; ``None`` leaves the mesh uniform. The triangles do not depend on them.
-
-        Raises:
-            MeshError: if gmsh fails, or if cells are curved.
-        """
+        """One mesh of the series, on the calling process only."""
         first = self.make()
         mesh = first
         for _ in range(halvings):
@@ -74,13 +66,7 @@ class NestedMeshes:
 
 
 def rectangle_meshes(geometry: TankGeometry, *, size: float, bulk_size: float) -> NestedMeshes:
-    """The meshes of a tank of one liquid without floats.
-
-    Args:
-        geometry: the tank.
-        size: largest element at the top in the first mesh, in the geometry's unit of length.
-        bulk_size: largest element anywhere in the first mesh.
-    """
+    """The meshes of a tank of one liquid without floats."""
     # A single ring.
     grading = Grading(surface_sizes=(size,) * len(geometry.segments), bulk_size=bulk_size, tip_size=inf)
     graded_points = tuple(
@@ -91,12 +77,7 @@ def rectangle_meshes(geometry: TankGeometry, *, size: float, bulk_size: float) -
 
 
 def outline_meshes(outline: Outline, *, bulk_size: float) -> NestedMeshes:
-    """The meshes of an outline of straight curves with their sizes, cut open where it says so.
-
-    Args:
-        outline: the domain; its corners have one ring each.
-        bulk_size: largest element anywhere in the first mesh.
-    """
+    """The meshes of an outline of straight curves with their sizes, cut open where it says so."""
     return NestedMeshes(make=partial(build_mesh, outline, bulk_size=bulk_size), graded_points=outline.graded_points)
 
 
@@ -104,9 +85,6 @@ def halved(mesh: TaggedMesh) -> TaggedMesh:
     """Cut every straight triangle into four of half its size, one after the other in place of their parent.
 
     A mesh that is cut open stays so: edges on both sides of a cut have nodes of their own.
-
-    Raises:
-        MeshError: if cells are curved.
     """
     if mesh.curved is not None:
         raise MeshError("a mesh with curved cells is not halved: make a finer one")

@@ -41,16 +41,7 @@ class CellLayers:
 
 
 def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> TaggedMesh:
-    """Surround a basin with layers of cells; the result is a larger basin with the same names of sides.
-
-    Args:
-        mesh: mesh of a rectangle whose sides have the names of `geometry`.
-        sides: names of both walls, and of bottom and lid if they are extended.
-        layers: distances of the layers of cells.
-
-    Returns:
-        The mesh, whose first cells and nodes are those of the basin.
-    """
+    """Surround a basin with layers of cells; the result is a larger basin with the same names of sides."""
     rim = _Rim(mesh, sides)
     numbers, positions = rim.nodes(layers)
     cells, tags = rim.cells(numbers, positions)
@@ -77,8 +68,6 @@ def with_far_ends(mesh: TaggedMesh, sides: tuple[str, ...]) -> TaggedMesh:
 
 
 class _Rim:
-    """The nodes and edges on the extended sides of a basin."""
-
     def __init__(self, mesh: TaggedMesh, sides: tuple[str, ...]) -> None:
         self._mesh = mesh
         owner = _cell_at_edge(mesh)
@@ -101,7 +90,6 @@ class _Rim:
         self._rails = list(self._rail_names(sides))
 
     def _corner(self, node: int, wall: str, level: str) -> Iterator[tuple[Ray, Ray, int, str]]:
-        """The two edges that open between the rays of a corner."""
         sideways, vertical = _OUTWARDS[wall], _OUTWARDS[level]
         diagonal = (sideways[0], vertical[1])
         tag = next(tag for first, second, tag, _ in self._edges if node in (first[0], second[0]))

@@ -117,7 +117,6 @@ class Outline:
     graded_points: tuple[GradedPoint, ...] = ()
 
     def __post_init__(self) -> None:
-        """Check that it is a planar domain divided into regions."""
         for number, curve in enumerate(self.curves):
             _check_curve(number, curve)
         for region in self.regions:

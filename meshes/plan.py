@@ -50,20 +50,7 @@ def plan_mesh(
     geometry_degree: int,
     mirrors: Mirrors = (None, None),
 ) -> TaggedMesh:
-    """Triangulate a plan.
-
-    Args:
-        wall: the tank, with the name of the water; its holes are inner walls.
-        plates: those beside which there is water all around, or one that covers the plan; without overlap.
-        size: largest cell of a region by its name.
-        layers: number of layers on each side of an edge.
-        thickness: of the outermost layer; it is smaller where a band would touch another one or a wall.
-        geometry_degree: of cells at circles.
-        mirrors: x and y of planes of symmetry of wall and plates; the part of the plan beyond them is meshed.
-
-    Raises:
-        MeshError: if gmsh fails, or a curved cell is inverted.
-    """
+    """Triangulate a plan."""
     covered = any(plate.outside is wall.outside for plate in plates)
     edges, walls = edges_of(wall, plates), wall.loops
     thick = min(thickness, room_between(walls, edges))

@@ -19,17 +19,7 @@ _SMALLEST_JACOBIAN = 0.05
 def curved_cells(
     points: NDArray[np.float64], cells: NDArray[np.int64], bands: list[Band], degree: int
 ) -> CurvedCells | None:
-    """Return the geometry of the cells at circles; ``None`` where all cells are straight.
-
-    Args:
-        points: nodes, shape (nodes, 2).
-        cells: all triangles, shape (cells, 3).
-        bands: those around the loops.
-        degree: of the geometry.
-
-    Raises:
-        MeshError: if a curved cell is inverted.
-    """
+    """Return the geometry of the cells at circles; ``None`` where all cells are straight."""
     circles = [band for band in bands if isinstance(band.loop, CircleLoop)]
     if not circles:
         return None

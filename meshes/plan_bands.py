@@ -87,19 +87,7 @@ def bands_around(
     inside: str,
     outside: str,
 ) -> list[Band]:
-    """Return the bands around the parts of a loop on this side of all mirror planes.
-
-    Args:
-        loop: a loop that is symmetric about each plane which it crosses.
-        first: number of the first node.
-        mirrors: x and y of mirror planes, beyond which the part with larger coordinates is kept.
-        size: largest distance of nodes along it.
-        steps: distances of the layers, descending.
-        towards: distances of nodes from its corners.
-        reentrant: the same of re-entrant corners.
-        inside: name of the region inside.
-        outside: name of that outside.
-    """
+    """Return the bands around the parts of a loop on this side of all mirror planes."""
     loop = loop.cut(mirrors)
     places = loop.places(size, towards, reentrant)
     kept = kept_by(mirrors, loop.parallel(0.0, places), _ON_MIRROR)

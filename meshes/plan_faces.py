@@ -98,7 +98,6 @@ def _is_inside(wall: PlanRegion, point: NDArray[np.float64]) -> bool:
 
 
 def _chained(points: NDArray[np.float64], following: dict[int, int], name_of: dict[int, str]) -> list[Face]:
-    """The faces whose edges lead from node to node."""
     left, cycles = set(following), []
     while left:
         chain = [min(left)]
@@ -136,13 +135,7 @@ def _area(corners: NDArray[np.float64]) -> float:
 def filled(
     found: Faces, size: Callable[[str], float], corners: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], list[NDArray[np.int64]]]:
-    """Return all nodes, and gmsh's triangles of each face; in a model of gmsh's.
-
-    Args:
-        found: the faces.
-        size: largest cell of a region by its name.
-        corners: re-entrant ones, to which cells shrink, shape (corners, 2).
-    """
+    """Return all nodes, and gmsh's triangles of each face; in a model of gmsh's."""
     geo = gmsh.model.geo
     points, tags = found.points, dict[int, int]()
     lines: dict[tuple[int, int], int] = {}

@@ -43,12 +43,7 @@ class PolygonLoop:
     corners: NDArray[np.float64]
 
     def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return points of the mitred parallel outside it (inside if negative).
-
-        Args:
-            distance: from the sides.
-            places: number of the side plus the part of it that is passed, shape (points,).
-        """
+        """Return points of the mitred parallel outside it (inside if negative)."""
         sides = np.roll(self.corners, -1, axis=0) - self.corners
         tangents = sides / np.linalg.norm(sides, axis=1)[:, None]
         before = np.roll(tangents, 1, axis=0)
@@ -63,13 +58,7 @@ class PolygonLoop:
         return points
 
     def places(self, size: float, towards: Grading, towards_reentrant: Grading) -> NDArray[np.float64]:
-        """Return where the nodes lie: cells of a size, smaller ones towards the corners.
-
-        Args:
-            size: of the largest cell.
-            towards: distances of nodes from a corner, ascending.
-            towards_reentrant: the same of corners with more than half a turn inside.
-        """
+        """Return where the nodes lie: cells of a size, smaller ones towards the corners."""
         places = []
         ahead = np.roll(self.corners, -1, axis=0) - self.corners
         lengths = np.linalg.norm(ahead, axis=1)

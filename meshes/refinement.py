@@ -27,17 +27,7 @@ _CURVED_DEGREE = 2
 
 
 def refined_mesh(coarse: TankMesh, surfaces: dict[tuple[str, ...], Surface], times: int, *, curved: bool) -> TankMesh:
-    """Divide each cell into eight, several times (collective).
-
-    Args:
-        coarse: a mesh of straight tetrahedra whose facets at walls too are in groups, one for each surface.
-        surfaces: on which the nodes lie that a group has, or each of several.
-        times: number of refinements.
-        curved: whether cells get nodes of the second degree at the end.
-
-    Returns:
-        The mesh; its groups of facets are those of the names before `APART`.
-    """
+    """Divide each cell into eight, several times (collective)."""
     mesh, facet_tags, cell_tags = coarse.mesh, coarse.facet_tags, coarse.cell_tags
     groups = list(coarse.facet_names.items())
     places_of = {name: place for place, (name, _) in enumerate(groups)}
@@ -86,7 +76,6 @@ def refined_mesh(coarse: TankMesh, surfaces: dict[tuple[str, ...], Surface], tim
 
 
 def _with_nodes(mesh: Mesh, space: fem.FunctionSpace, points: FloatArray) -> Mesh:
-    """The mesh with nodes at the unknowns of a space."""
     cell, dofmap = mesh.topology.cell_name(), space.dofmap
     element = basix.ufl.element("Lagrange", cell, _CURVED_DEGREE)
     geometry = cpp.mesh.Geometry_float64(

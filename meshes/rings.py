@@ -59,20 +59,7 @@ class RingEnds:
 def wedge_nodes(
     corner: NDArray[np.float64], radii: NDArray[np.float64], incoming: RingEnds, outgoing: RingEnds
 ) -> NDArray[np.float64]:
-    """Nodes of the rings in one region, shape (rings, rays, 2).
-
-    Args:
-        corner: shape (2,).
-        radii: of the rings.
-        incoming: where they meet the curve by which the region's counterclockwise boundary comes to the corner.
-        outgoing: where they meet the curve by which it leaves.
-
-    Returns:
-        Nodes ring after ring from the inside, clockwise from the incoming to the outgoing curve.
-
-    Raises:
-        MeshError: if the angle between the two curves is too small.
-    """
+    """Nodes of the rings in one region, shape (rings, rays, 2)."""
     # In (0, 2π]: at the tip of a slit the liquid has the full angle.
     openings = 2.0 * pi - np.mod(outgoing.angles - incoming.angles, 2.0 * pi)
     if openings.min() < _NARROWEST_WEDGE or np.ptp(openings) > pi:

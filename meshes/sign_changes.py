@@ -19,11 +19,6 @@ def sign_changes(
     """Return zeros by the Illinois method: secants between both signs, of which an end that stays counts half.
 
     Source: M. Dowell, P. Jarratt, BIT 11 (1971) 168.
-
-    Args:
-        function: negative at ``below``, not negative at ``above``, of parameters of any shape, element by element.
-        below: parameters between 0 and 1.
-        above: of the same shape.
     """
     low, high = function(below), function(above)
     nearest, kept = above, np.zeros(np.shape(above))

@@ -29,11 +29,6 @@ def singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) ->
 
     Edges of plates, corners of floats and columns, and tips of baffles; not those that planes of symmetry make, nor
     where walls of a float meet the still surface at right angles.
-
-    Args:
-        tank: the tank.
-        faces: name of each face of the liquids, "" of walls.
-        mirrors: x and y of planes of symmetry.
     """
     found: set[int] = set()
     beside: set[int] = set()
@@ -65,15 +60,7 @@ def singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) ->
 
 
 def singular_segments(mesh: NodedMesh, edges: set[int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the edges of cells on curves of gmsh's current model, and the points in which these meet at an angle.
-
-    Args:
-        mesh: that of the current model.
-        edges: the curves.
-
-    Returns:
-        Numbers of the ends of the edges, shape (n, 2), and of the points, shape (m,).
-    """
+    """Return the edges of cells on curves of gmsh's current model, and the points in which these meet at an angle."""
     corners = np.unique(mesh.cells[:, :4])
     nearest = cKDTree(mesh.points[corners])
     found = [np.empty((0, 2), np.int64)]

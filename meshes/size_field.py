@@ -45,15 +45,7 @@ class SizeField:
         rings: list[tuple[Point, float]],
         bends: list[Discs],
     ) -> None:
-        """Collect the sources.
-
-        Args:
-            bulk_size: largest element anywhere.
-            growth: increase of the size per unit of distance from a source.
-            straight: straight curves with a size.
-            rings: corners and the radius of their outermost ring.
-            bends: pieces of curved curves.
-        """
+        """Collect the sources."""
         self._bulk_size = bulk_size
         corners = np.array([centre for centre, _ in rings]).reshape(-1, 2)
         outermost = np.array([radius for _, radius in rings])
@@ -68,7 +60,6 @@ class SizeField:
         )
 
     def __call__(self, x: float, y: float) -> float:
-        """Element size at a point."""
         if len(self._sources.sizes) <= _FEW:
             return min(self._bulk_size, self._sources.least_at(complex(x, y)))
         return float(self._sources.least(np.array([complex(x, y)]), self._bulk_size)[0])

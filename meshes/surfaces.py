@@ -105,16 +105,7 @@ def circle_of(curve: int) -> Surface | None:
 
 
 def moved_to(surfaces: list[Surface], points: FloatArray, lies_on: np.ndarray) -> FloatArray:
-    """Move points to the surfaces that they lie on, to the common line or point of several.
-
-    Args:
-        surfaces: all surfaces.
-        points: near them, shape (n, 3).
-        lies_on: which points lie on which of them, bool, shape (n, surfaces).
-
-    Returns:
-        The points, shape (n, 3).
-    """
+    """Move points to the surfaces that they lie on, to the common line or point of several."""
     moved = points.copy()
     kinds, of_points = np.unique(lies_on, axis=0, return_inverse=True)
     for number, kind in enumerate(kinds):

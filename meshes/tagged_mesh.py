@@ -77,11 +77,7 @@ class TaggedMesh:
     deviation: Deviation = field(default_factory=Deviation)
 
     def require(self, *, cells: Iterable[str], facets: Iterable[str]) -> None:
-        """Check that named groups exist and are not empty.
-
-        Raises:
-            MeshError: naming every group that is missing, and those that are there.
-        """
+        """Check that named groups exist and are not empty."""
         problems = []
         for kind, wanted, names, tags in (
             ("cells", cells, self.cell_names, self.cell_tags),

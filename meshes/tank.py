@@ -16,16 +16,6 @@ def build_tank_mesh(geometry: TankGeometry, grading: Grading) -> TaggedMesh:
 
     The groups are `LIQUID` for the cells; `BOTTOM`, `LEFT_WALL`, `TankGeometry.right_end` and the names of the
     geometry's segments for the edges. Every joint of two segments is a node.
-
-    Args:
-        geometry: the tank.
-        grading: element sizes, in the geometry's unit of length.
-
-    Returns:
-        The mesh of straight triangles, on the calling process only.
-
-    Raises:
-        MeshError: if gmsh fails.
     """
     return build_mesh(
         tank_outline(geometry, grading),

@@ -46,13 +46,7 @@ class VolumeMesh:
 
 
 def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None = None) -> NodedMesh:
-    """The mesh of the current model, with nodes in the order of dolfinx.
-
-    Args:
-        degree: of its cells.
-        faces: names of those that get one.
-        layers: name of the liquid of each volume; by default that of a single one.
-    """
+    """The mesh of the current model, with nodes in the order of dolfinx."""
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     order[tags.astype(np.int64)] = np.arange(len(tags))
@@ -99,7 +93,6 @@ def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None 
 
 
 def _renumbered(mesh: NodedMesh) -> NodedMesh:
-    """Without nodes that no cell has."""
     used = np.unique(mesh.cells)
     order = np.full(len(mesh.points), -1)
     order[used] = np.arange(len(used))
@@ -111,19 +104,7 @@ class FoldedError(MeshError):
 
 
 def checked(mesh: NodedMesh, *, straighten: bool = True) -> tuple[NodedMesh, float]:
-    """Straighten cells that a curved wall inverts, as it does in holes and at tips; or refuse them.
-
-    Args:
-        mesh: the mesh.
-        straighten: whether the straight cells are known to be good.
-
-    Returns:
-        The mesh, and the volume by which straightened cells changed.
-
-    Raises:
-        FoldedError: if cells are inverted.
-        MeshError: if there is no still surface.
-    """
+    """Straighten cells that a curved wall inverts, as it does in holes and at tips; or refuse them."""
     if not len(mesh.facets):
         raise MeshError("the liquid has no still surface at z = 0")
     changed = 0.0
@@ -156,7 +137,6 @@ def smallest_jacobians(mesh: NodedMesh) -> NDArray[np.float64]:
 
 
 def _jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:
-    """Det J at points of the cells, shape (cells, points)."""
     points = basix.create_lattice(basix.CellType.tetrahedron, lattice, basix.LatticeType.equispaced, True)
     return _determinants(mesh, points)
 

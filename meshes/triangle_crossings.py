@@ -15,11 +15,7 @@ from hydroelastic.physics.wetted_hulls import Triangles
 
 def crossing_place(surface: Triangles) -> FloatArray | None:
     """Return a place near which one side of a triangle passes through another triangle, shape (3,); ``None`` if none
-    does. Triangles with a common corner are not looked at.
-
-    Args:
-        surface: the triangles.
-    """
+    does. Triangles with a common corner are not looked at."""
     element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
     mesh = create_mesh(MPI.COMM_SELF, cells=surface.corners, x=surface.points, e=ufl.Mesh(element))
     mesh.topology.create_entities(1)

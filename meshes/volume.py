@@ -96,18 +96,7 @@ class VolumeSizes:
 
 
 def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None)) -> VolumeMesh:
-    """Mesh a dimensionless tank, on the calling process only.
-
-    Args:
-        tank: the tank.
-        sizes: of the cells.
-        mirrors: x and y of planes of symmetry, below which nothing is meshed.
-
-    Raises:
-        FoldedError: if a cell is inverted.
-        MisplacedError: if parts of the tank do not fit together.
-        MeshError: if gmsh fails, or if the file's groups do not fit.
-    """
+    """Mesh a dimensionless tank, on the calling process only."""
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
         return mesh_of_file(tank.plan)
     bed = depth_over(tank)
@@ -227,21 +216,14 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
 
 
 def _require_thick(tank: VolumeTank, sizes: VolumeSizes) -> None:
-    """Refuse two liquids, one of which is much thinner than the cells.
-
-    Raises:
-        MeshError: if one is.
-    """
+    """Refuse two liquids, one of which is much thinner than the cells."""
     if tank.lower is not None and min(tank.lower.depth, tank.depth - tank.lower.depth) < _THINNEST * sizes.bulk:
         raise MeshError("one of the liquids is so thin that its cells would be flat: leave it out, or make it thicker")
 
 
 def _require_few(cubes: float) -> None:
-    """Refuse a mesh that gmsh, on one process, would not end in sensible time and memory, of so many cubes of its size.
-
-    Raises:
-        MeshError: if it has too many cells.
-    """
+    """Refuse a mesh that gmsh, on one process, would not end in sensible time and memory, of so many cubes of its
+    size."""
     if cubes * CELLS_OF_A_CUBE > _MOST_CELLS:
         raise MeshError(
             f"about {cubes * CELLS_OF_A_CUBE:.1g} tetrahedra would be needed, and {_MOST_CELLS:.1g} can be made: the "
@@ -323,7 +305,6 @@ def _least_radius(solid: SolidFloat) -> float:
 
 
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
-    """Cells grow from singular edges, and follow curved walls."""
     mesh = gmsh.model.mesh
     around = [2.0 * pi * _least_radius(solid) / sizes.around for solid in tank.floats if solid.shape != "box"]
     gaps = [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]

@@ -41,15 +41,7 @@ _Entities = list[tuple[int, int]]
 
 
 def file_plan(file: Path, fill: float) -> FilePlan:
-    """Measure the still surface of a tank that a file describes.
-
-    Args:
-        file: it.
-        fill: height of the still surface above the lowest point, m; a mesh has its own.
-
-    Raises:
-        MeshError: if it cannot be read, or does not hold what is needed.
-    """
+    """Measure the still surface of a tank that a file describes."""
     return _file_plan(file, fill, file.stat().st_mtime_ns)
 
 
@@ -96,11 +88,7 @@ def lies_in_plane(tag: int, axis: int, level: float) -> bool:
 
 @contextmanager
 def readable_by_gmsh(file: Path) -> Iterator[str]:
-    """Give the path of a copy of a file of data in a folder of its own: gmsh also runs what stands in FILE.opt.
-
-    Raises:
-        MeshError: if the file, by its first bytes, is not what its name says, or gmsh cannot read it.
-    """
+    """Give the path of a copy of a file of data in a folder of its own: gmsh also runs what stands in FILE.opt."""
     try:
         content = file.read_bytes().lstrip()
     except OSError as error:
@@ -120,11 +108,7 @@ def readable_by_gmsh(file: Path) -> Iterator[str]:
 
 
 def solids_in(file: Path, metres: float) -> _Entities:
-    """Read the solids of a file into the current model, in a unit of length.
-
-    Raises:
-        MeshError: if it cannot be read.
-    """
+    """Read the solids of a file into the current model, in a unit of length."""
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
     try:
@@ -135,11 +119,7 @@ def solids_in(file: Path, metres: float) -> _Entities:
 
 
 def solid_of_file(plan: FilePlan) -> _Entities:
-    """Read a solid into the current model, fill it and move its still surface to z = 0.
-
-    Raises:
-        MeshError: if the file does not hold one solid, or the liquid falls into several.
-    """
+    """Read a solid into the current model, fill it and move its still surface to z = 0."""
     occ = gmsh.model.occ
     # Unlike a later dilation this keeps cones cones.
     solids = solids_in(plan.file, plan.metres)

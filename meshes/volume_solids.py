@@ -42,7 +42,6 @@ def liquid_solid(tank: VolumeTank) -> Entities:
 
 
 def _reach(tank: VolumeTank) -> float:
-    """A length beyond the extent of the tank."""
     return 4.0 + tank.depth
 
 
@@ -109,11 +108,7 @@ def _polygon(corners: list[tuple[float, float, float]]) -> Entities:
 
 
 def baffle_faces(baffle: Baffle, tank: VolumeTank, liquid: Entities) -> Entities:
-    """The part of a baffle in the liquid.
-
-    Raises:
-        MisplacedError: if there is none.
-    """
+    """The part of a baffle in the liquid."""
     if isinstance(baffle, VerticalBaffle):
         (x, y), (right, back) = baffle.start, baffle.end
         low = -2.0 * _reach(tank) if baffle.bottom == -inf else baffle.bottom
@@ -146,15 +141,8 @@ def float_solid(solid: SolidFloat) -> Entities:
 
 
 def gap_of_solids(one: SolidFloat, other: SolidFloat | Rectangle | Disc) -> float:
-    """Return the least distance, m, of the wetted parts of two floats, or of a float and a column; 0 where they meet.
-
-    Args:
-        one: a float, in SI units.
-        other: another one, or the outline of a column.
-
-    Raises:
-        MeshError: if the file of a hull cannot be read.
-    """
+    """Return the least distance, m, of the wetted parts of two floats, or of a float and a column; 0 where they
+    meet."""
     with gmsh_model():
         if isinstance(other, SolidFloat):
             first, second = _wetted_part(one, other.bounds), _wetted_part(other, one.bounds)
@@ -212,11 +200,7 @@ def _is_around(solid: SolidFloat, parts: Entities) -> bool:
 
 
 def require_inside(name: str, solids: Entities, liquid: Entities) -> None:
-    """Refuse a float that is not inside of a liquid, or touches its walls or bed.
-
-    Raises:
-        MisplacedError: if it does.
-    """
+    """Refuse a float that is not inside of a liquid, or touches its walls or bed."""
     occ = gmsh.model.occ
     common = occ.intersect(solids, liquid, removeObject=False, removeTool=False)[0]
     faces = [face for _, solid in liquid for loop in occ.getSurfaceLoops(solid)[1] for face in loop]

@@ -60,9 +60,6 @@ def added_mass_from_frequency(beam: FloatingBeam, omega: float) -> float:
         beam: the problem.
         omega: frequency of the wet tone, rad/s, positive.
 
-    Raises:
-        ValueError: if ω is not positive.
-
     Source: theory of the aquarium, docs, § 1.3, erratum 9.
     """
     _check_omega(omega)
@@ -77,9 +74,6 @@ def paper_equivalent_mass(beam: FloatingBeam, omega: float) -> float:
     Args:
         beam: the problem.
         omega: frequency of the wet tone, rad/s, positive.
-
-    Raises:
-        ValueError: if ω is not positive.
 
     Source: "On the liquid added mass under the oscillations of the elastic rod floating on the aquatorium surface",
     Bauman Moscow State Technical University, 2018 (in Russian).

@@ -16,9 +16,6 @@ def pencil_modes(matrix: FloatArray, positive: FloatArray) -> tuple[FloatArray, 
 
     Returns:
         λ, ascending, shape (n,), and the v as columns, vᵀBv = 1, shape (n, n).
-
-    Raises:
-        numpy.linalg.LinAlgError: if B is not positive definite.
     """
     factor = np.linalg.cholesky(positive)
     eigenvalues, vectors = np.linalg.eigh(np.linalg.solve(factor, np.linalg.solve(factor, matrix).T))

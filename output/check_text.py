@@ -12,13 +12,7 @@ from hydroelastic.output.sections import Section
 
 
 def print_check(title: str, sections: Iterable[Section], console: Console) -> None:
-    """Print the model of a scene; sections without a table have no heading.
-
-    Args:
-        title: of the scene.
-        sections: tables of the model.
-        console: where to print.
-    """
+    """Print the model of a scene; sections without a table have no heading."""
     # Text, not str: a title may hold brackets, which rich would read as markup.
     console.print(Text(title or "Untitled scene", style="bold"))
     for section in sections:

@@ -48,12 +48,6 @@ def columns_of(
     What the record does not have has none.
 
     Columns of successive quantities with the same one further dimension alternate.
-
-    Args:
-        group: of declared quantities.
-        record: of the group.
-        rows: dimensions whose places are the rows, the last one fastest.
-        labels: of further dimensions.
     """
     arrays = {
         part: np.asarray(value)
@@ -118,7 +112,6 @@ def rows_of(group: Group, columns: Sequence[Column], places: Sequence[int], erro
 
 
 def _error_of(column: Column, others: Sequence[Column]) -> Column | None:
-    """The error that a quantity names, at the places of a column."""
     named = (other for other in others if other.quantity.key == column.quantity.error)
     return next((other for other in named if other.places.items() <= column.places.items()), None)
 

@@ -25,13 +25,7 @@ SUMMARY_TEXT = "summary"
 
 
 def complete_variables(arrays: Iterable[Variable], summary: Summary, kind: Group) -> list[Variable]:
-    """Return labelled arrays with the summary: its values as variables, and its whole text.
-
-    Args:
-        arrays: of the kind of scene.
-        summary: content of ``summary.json``.
-        kind: the declared quantities of the kind of scene.
-    """
+    """Return labelled arrays with the summary: its values as variables, and its whole text."""
     content = json_ready(summary)
     text = Variable(
         name=SUMMARY_TEXT,
@@ -59,9 +53,6 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
     Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them. Texts and truth
     values are written as xarray does, which reads them back. Empty arrays, which this format does not have, are left
     out.
-
-    Raises:
-        ValueError: if two arrays have different lengths along the same dimension.
     """
     found = [separate_parts(variable) for variable in variables if variable.values.size]
     if any("complex" in variable.dimensions for variable in found):
@@ -106,18 +97,7 @@ def _attribute(value: Any) -> Any:
 
 
 def read_dataset(path: Path) -> tuple[xarray.Dataset, Summary]:
-    """Read a ``dataset.nc``.
-
-    Args:
-        path: the file.
-
-    Returns:
-        The dataset, and the summary as ``summary.json`` has it.
-
-    Raises:
-        FileNotFoundError: if there is no such file.
-        KeyError: if it holds no summary.
-    """
+    """Read a ``dataset.nc``."""
     # xarray takes a while to import.
     import xarray
 

@@ -36,7 +36,6 @@ class FolderError(Exception):
     """
 
     def __init__(self, wrong: str, folder: str | Path | None = None, remedy: str = "") -> None:
-        """Keep the parts of the message."""
         super().__init__(wrong if folder is None else f"output folder {folder}: {wrong}. {remedy}.")
         self.wrong, self.folder, self.remedy = wrong, folder, remedy
 
@@ -45,16 +44,6 @@ def check_output(path: str | Path) -> Manifest | None:
     """Check, before solving, that a result folder can be written; leaves no files.
 
     Temporary folders of killed runs beside the folder are removed.
-
-    Args:
-        path: the folder to be written. Missing folders above it would be made. The files of a previous run
-            would be replaced, an empty folder filled.
-
-    Returns:
-        The list of the files of a previous run, if there are any.
-
-    Raises:
-        FolderError: if the path is a file, a foreign folder or the current one, or nothing can be written there.
     """
     try:
         target = Path(os.path.realpath(path))
@@ -80,16 +69,6 @@ def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterat
     run listed and that are unchanged are replaced only then. All other files in ``path`` are kept; where the
     new results have a file of that name, it gets the ending ``.kept``. Exceptions, Ctrl-C and the signals that end a
     job remove what was written. Under MPI only one rank may enter.
-
-    Args:
-        path: the result folder; missing folders above it are made.
-        scene_file: the scene file, for the list of files; ``None`` where the scene comes from Python.
-
-    Yields:
-        The folder to write into.
-
-    Raises:
-        FolderError: as `check_output`, or if writing or moving fails (a full disk).
     """
     check_output(path)
     target = Path(os.path.realpath(path))
@@ -214,12 +193,7 @@ def _link(source: Path, target: Path) -> None:
 
 
 def results_message(folder: Path, *, replaces: bool) -> str:
-    """Return the message about the place of results: earlier files that were replaced, and those that are kept.
-
-    Args:
-        folder: the result folder.
-        replaces: whether files of an earlier run were there.
-    """
+    """Return the message about the place of results: earlier files that were replaced, and those that are kept."""
     listed = read_manifest(folder)
     kept = [] if listed is None else sorted(set(file_names(folder)) - listed.files.keys() - {MANIFEST})
     said = ["replacing earlier ones"] * replaces
@@ -244,11 +218,7 @@ def write_summary(summary: dict[str, Any], folder: Path) -> None:
 
 
 def raise_on_all(problem: BaseException | None, comm: MPI.Comm) -> None:
-    """Raise an error of rank 0, which alone writes, on all processes (collective).
-
-    Raises:
-        FolderError: on the other processes.
-    """
+    """Raise an error of rank 0, which alone writes, on all processes (collective)."""
     failed = comm.bcast(problem is not None, root=0)
     if problem is not None:
         raise problem

@@ -17,13 +17,7 @@ from hydroelastic.output.variables import Variable, attributes_of
 
 
 def record_variables(group: Group, record: Any, *, with_rolls: bool) -> Iterator[Variable]:
-    """Yield the arrays of one record that are to be joined with those of others; none where there is no value.
-
-    Args:
-        group: of declared quantities, with the groups within.
-        record: of the group.
-        with_rolls: whether units tell which entries belong to rotations.
-    """
+    """Yield the arrays of one record that are to be joined with those of others; none where there is no value."""
     for part in group.parts:
         if isinstance(part, Group):
             for one in part.records(record):
@@ -43,13 +37,7 @@ def record_variables(group: Group, record: Any, *, with_rolls: bool) -> Iterator
 
 
 def numbered_along(dimension: str, part: Iterable[Variable], number: int) -> Iterator[Variable]:
-    """Yield the arrays of one of several parts, but for the labels of dimensions, along one more dimension.
-
-    Args:
-        dimension: whose label at this part is the number.
-        part: the arrays.
-        number: of the part.
-    """
+    """Yield the arrays of one of several parts, but for the labels of dimensions, along one more dimension."""
     yield Variable(name=dimension, dimensions=(dimension,), values=np.array([number]))
     for one in part:
         is_label = one.dimensions == (one.name,)
@@ -57,14 +45,7 @@ def numbered_along(dimension: str, part: Iterable[Variable], number: int) -> Ite
 
 
 def joined(parts: Sequence[Sequence[Variable]], labels: Mapping[str, Sequence[Any]]) -> list[Variable]:
-    """Return the arrays of all parts over the labels of all, numbers that no part has NaN and texts "".
-
-    Args:
-        parts: the arrays of each, the labels of their dimensions among them; along one without labels, places are
-            counted. Of values that several have, the first is taken.
-        labels: of some dimensions, all that are kept, in order. Other labels that differ between parts are ascending
-            if they are numbers, else in order of appearance.
-    """
+    """Return the arrays of all parts over the labels of all, numbers that no part has NaN and texts ""."""
     own = [{one.name: one.values for one in part if one.dimensions == (one.name,)} for part in parts]
     known: dict[str, NDArray[Any]] = {}
     for part, told in zip(parts, own, strict=True):
@@ -94,7 +75,6 @@ def joined(parts: Sequence[Sequence[Variable]], labels: Mapping[str, Sequence[An
 
 
 def _all_of(some: NDArray[Any], others: NDArray[Any]) -> NDArray[Any]:
-    """The labels of both."""
     if some.dtype.kind in "if":
         return np.union1d(some, others)
     return np.array(list(dict.fromkeys((*some.tolist(), *others.tolist()))))

@@ -21,26 +21,14 @@ def frame_numbers(frames: int, times: int) -> list[int]:
 
 
 def write_line(file: Path, points: NDArray[np.float64], data: dict[str, NDArray[np.float64]]) -> None:
-    """Write one line as VTU.
-
-    Args:
-        file: to write.
-        points: m, shape (n, 3).
-        data: at the points, by name.
-    """
+    """Write one line as VTU."""
     count = len(points)
     cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
     write_vtu(file, points, cells, data)
 
 
 def write_sequence(folder: Path, name: str, frames: Iterable[Frame]) -> None:
-    """Write ``<name>_000000.vtu`` and so on, and ``<name>.pvd``.
-
-    Args:
-        folder: an existing folder.
-        name: of the files.
-        frames: in the order of time.
-    """
+    """Write ``<name>_000000.vtu`` and so on, and ``<name>.pvd``."""
     entries = []
     for number, (time, points, data) in enumerate(frames):
         file = f"{name}_{number:06d}.vtu"

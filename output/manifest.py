@@ -25,12 +25,7 @@ class Manifest:
     files: dict[str, str]
 
     def is_own(self, folder: Path, name: str) -> bool:
-        """Return whether a file of the folder was written by that run and is unchanged.
-
-        Args:
-            folder: the result folder.
-            name: the file as a path relative to it.
-        """
+        """Return whether a file of the folder was written by that run and is unchanged."""
         if name == MANIFEST:
             return True
         path = folder / name
@@ -42,13 +37,7 @@ class Manifest:
 
 
 def write_manifest(folder: Path, *, scene_file: Path | None, place: Path) -> None:
-    """List all files of a finished folder in its ``manifest.json``, the last file to be written.
-
-    Args:
-        folder: the finished folder.
-        scene_file: the scene file; ``None`` where the scene came from Python.
-        place: the folder's absolute path after it is moved in.
-    """
+    """List all files of a finished folder in its ``manifest.json``, the last file to be written."""
     files = {name: _digest(folder / name) for name in file_names(folder)}
     scene = "" if scene_file is None else os.path.relpath(os.path.realpath(scene_file), place)
     text = json.dumps(asdict(Manifest(scene=scene, files=files)), indent=1, ensure_ascii=False)

@@ -96,12 +96,7 @@ def warnings_of(summary: Summary) -> tuple[str, ...]:
 
 
 def spent(summary: Reading, memory: str = "") -> str:
-    """Return seconds by stage and memory, the end of the line on the cost of a solution.
-
-    Args:
-        summary: the summary of a result.
-        memory: what is added about memory.
-    """
+    """Return seconds by stage and memory, the end of the line on the cost of a solution."""
     seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary[TIMING].items() if value >= 0.005)
     return f"; seconds: {seconds or 'less than 0.01'}; peak memory {summary[MEMORY_PEAK] / 2**20:.0f} MiB{memory}."
 
@@ -121,14 +116,7 @@ class Solved(Protocol):
 
 
 def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_seconds: float = 0.0) -> Summary:
-    """Return the content of ``summary.json`` (collective: peak memory is summed over processes).
-
-    Args:
-        kind: the declared quantities of the kind of scene.
-        solution: of the scene.
-        scene: in types of JSON.
-        import_seconds: time spent importing libraries.
-    """
+    """Return the content of ``summary.json`` (collective: peak memory is summed over processes)."""
     return {
         SCENE.key: scene,
         STATUS.key: "unconverged" if solution.reasons else "ok",

@@ -76,11 +76,7 @@ class Quantity:
         return _taken(self.key, self.value, record)
 
     def name_behind(self, prefix: str) -> str:
-        """Return the name of its variable; "" where other arrays contain it.
-
-        Args:
-            prefix: of the variables of its group.
-        """
+        """Return the name of its variable; "" where other arrays contain it."""
         return f"{prefix}_{self.key}".lstrip("_") if self.variable is None else self.variable
 
     @property
@@ -108,12 +104,7 @@ class Quantity:
         return ", ".join(filter(None, (self.short or self.symbol or self.meaning, self.unit_text)))
 
     def cell(self, values: Mapping[str, Any], group: Group) -> str:
-        """Return the value as it is printed, the entries of a list one after the other.
-
-        Args:
-            values: of its group, by key.
-            group: which declares its error.
-        """
+        """Return the value as it is printed, the entries of a list one after the other."""
         value = values[self.key]
         if isinstance(value, list):
             between = "; " if any(isinstance(entry, list) for entry in value) else ", "
@@ -162,11 +153,7 @@ class Group:
     note: str = ""
 
     def __getitem__(self, key: str) -> Any:
-        """Return the part of a key.
-
-        Raises:
-            KeyError: if there is none.
-        """
+        """Return the part of a key."""
         for part in self.parts:
             if part.key == key:
                 return part
@@ -207,11 +194,7 @@ class Group:
         return () if found is None else tuple(found) if self.dimension else (found,)
 
     def evaluated(self, record: Any) -> Values:
-        """Return the values of the quantities in ``summary.json``, by key.
-
-        Args:
-            record: one record of the group itself. What a mapping lacks is left out.
-        """
+        """Return the values of the quantities in ``summary.json``, by key."""
         is_mapping = isinstance(record, Mapping)
         return {
             key: ready(_taken(key, function, record))
@@ -229,7 +212,6 @@ class Group:
         )
 
     def _found(self, found: Any) -> Any:
-        """The values of a record, or of records, of the group."""
         if found is None:
             return None
         if self.dimension and isinstance(found, Mapping):
@@ -239,12 +221,7 @@ class Group:
     def places(
         self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
     ) -> Iterator[tuple[str, str, tuple[str, ...], Quantity | Group]]:
-        """Yield each part within with its place.
-
-        Yields:
-            The keys that lead to it, joined by dots; the name of its variable, of a group the prefix of those below;
-            their dimensions; the part.
-        """
+        """Yield each part within with its place."""
         for part in self.parts:
             inner, name = f"{place}.{part.key}".lstrip("."), part.name_behind(prefix)
             if isinstance(part, Group):
@@ -267,16 +244,7 @@ def array(
     value: Callable[[Any], Any] | None = None,
     **further: Any,
 ) -> Quantity:
-    """Return an array of ``dataset.nc`` alone.
-
-    Args:
-        key: name in its group, and of its variable if no other is given.
-        meaning: what it is.
-        unit: in names of UDUNITS.
-        dimensions: names, separated by blanks; places along a dimension have its name and that dimension alone.
-        value: returns it from a record; by default the attribute of the name `key`.
-        further: other attributes of the quantity.
-    """
+    """Return an array of ``dataset.nc`` alone."""
     return Quantity(key, meaning, unit, value=value, dimensions=tuple(dimensions.split()), in_summary=False, **further)
 
 

@@ -24,11 +24,7 @@ class Reading:
     values: Mapping[str, Any]
 
     def __getitem__(self, part: Quantity | Group) -> Any:
-        """Return a value; of a group its reading, a list of them, or a dictionary of them by labels; or ``None``.
-
-        Raises:
-            KeyError: if the group does not declare the part, or its values lack it.
-        """
+        """Return a value; of a group its reading, a list of them, or a dictionary of them by labels; or ``None``."""
         self._check(part)
         found = self.values[part.key]
         if isinstance(part, Quantity) or found is None:

@@ -41,15 +41,7 @@ class Section:
 def printed_sections(
     summary: Summary, sections: Iterable[Section], cost: str, *, notes: bool = False, width: int = 120
 ) -> str:
-    """A result as text for a terminal.
-
-    Args:
-        summary: content of ``summary.json``.
-        sections: the tables.
-        cost: a line about size and time.
-        notes: whether to print the notes of the tables.
-        width: of the text, in characters.
-    """
+    """A result as text for a terminal."""
     console = text_console(width)
     console.print(title_of(summary), markup=False)
     for number, line in enumerate(status_lines(summary)):
@@ -67,11 +59,7 @@ def printed_sections(
 
 
 def text_console(width: int) -> Console:
-    """Return a console that keeps what is printed, for `text_of`.
-
-    Args:
-        width: in characters.
-    """
+    """Return a console that keeps what is printed, for `text_of`."""
     # Who prints nothing does without it.
     from rich.console import Console
 

@@ -22,12 +22,7 @@ _INTEGERS = np.iinfo(np.int32)
 
 
 def summary_variables(summary: Summary, *groups: Group) -> Iterator[Variable]:
-    """Yield a summary as variables with units, and the labels of their dimensions.
-
-    Args:
-        summary: content of ``summary.json``, in types of JSON.
-        groups: the declared groups at its top, one after the other.
-    """
+    """Yield a summary as variables with units, and the labels of their dimensions."""
     whole = np.empty((), dtype=object)
     whole[()] = summary
     found = [one for group in groups for one in _below(group, whole, (), "")]
@@ -61,7 +56,6 @@ def _below(group: Group, records: _Entries, dimensions: tuple[str, ...], prefix:
 
 
 def _first(entries: _Entries) -> Any:
-    """The first value that is not missing."""
     return next((entry for entry in entries.flat if entry is not None), None)
 
 
@@ -83,7 +77,6 @@ def _unrolled(entries: _Entries) -> tuple[_Entries, _Entries | None]:
 
 
 def _typed(entries: _Entries, attributes: dict[str, Any]) -> tuple[NDArray[Any], dict[str, Any]]:
-    """Values in a type of NetCDF, with their attributes."""
     without_unit = {name: text for name, text in attributes.items() if name != "units"}
     known = [entry for entry in entries.flat if entry is not None]
     if not all(isinstance(entry, bool | int | float) or entry in ("inf", "-inf") for entry in known) or (

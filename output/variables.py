@@ -43,10 +43,6 @@ def array_variables(group: Group, record: Any) -> list[Variable]:
     Of a list of records each has arrays of its own: from the second on, their names, and those of their dimensions
     which the groups around do not declare, end in the number of the record. Labels of unused dimensions are left out,
     and so are arrays without a value.
-
-    Args:
-        group: of declared quantities.
-        record: of the solution.
     """
     found = list(_arrays(group, record, frozenset(), 0))
     used = {name for one in found for name in one.dimensions if name != one.name}
@@ -83,11 +79,7 @@ def numbered(name: str, place: int, suffix: str = "") -> str:
 
 
 def merged(*parts: Iterable[Variable]) -> list[Variable]:
-    """Return all variables, of those with the same name the first one.
-
-    Raises:
-        ValueError: if two of the same name differ.
-    """
+    """Return all variables, of those with the same name the first one."""
     found: dict[str, Variable] = {}
     for variable in (variable for part in parts for variable in part):
         first = found.setdefault(variable.name, variable)
@@ -98,13 +90,7 @@ def merged(*parts: Iterable[Variable]) -> list[Variable]:
 
 
 def grid_columns(variables: Iterable[Variable], names: Iterable[str], dimensions: tuple[str, ...]) -> dict[str, Any]:
-    """Return arrays as columns of a table with one row for each place of a grid, the last dimension fastest.
-
-    Args:
-        variables: of which some are columns.
-        names: of the columns, in order.
-        dimensions: of the grid; an array has some of them.
-    """
+    """Return arrays as columns of a table with one row for each place of a grid, the last dimension fastest."""
     by_name = {variable.name: variable for variable in variables}
     sizes = [len(by_name[name].values) for name in dimensions]
     columns = {}

@@ -34,16 +34,7 @@ def write_vtu(
     *,
     compressed: bool = True,
 ) -> None:
-    """Write a mesh with its arrays; VTK's key UNITS_LABEL of an array tells its unit.
-
-    Args:
-        path: of the file.
-        points: shape (points, 3).
-        cells: one block after the other.
-        point_data: arrays of the points, by name.
-        cell_data: arrays of all cells, by name.
-        compressed: whether arrays are compressed.
-    """
+    """Write a mesh with its arrays; VTK's key UNITS_LABEL of an array tells its unit."""
     starts = np.cumsum([len(nodes) for _, nodes in cells])[:-1]
     of_blocks = {name: np.split(values, starts) for name, values in (cell_data or {}).items()}
     import meshio  # only by runs that write fields
@@ -62,13 +53,7 @@ def _with_unit(found: re.Match[bytes]) -> bytes:
 
 
 def write_index(path: Path, parts: Iterable[str], arrays: Iterable[str]) -> None:
-    """Write a PVTU file, by which ParaView reads VTU files as one.
-
-    Args:
-        path: of the file.
-        parts: names of the files, relative to its folder.
-        arrays: names of their arrays at points, one number each.
-    """
+    """Write a PVTU file, by which ParaView reads VTU files as one."""
     text = '<?xml version="1.0"?>\n<VTKFile type="PUnstructuredGrid" version="1.0">\n'
     text += '<PUnstructuredGrid GhostLevel="0">\n'
     text += '<PPoints>\n<PDataArray type="Float64" NumberOfComponents="3"/>\n</PPoints>\n<PPointData>\n'
@@ -78,12 +63,7 @@ def write_index(path: Path, parts: Iterable[str], arrays: Iterable[str]) -> None
 
 
 def write_collection(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:
-    """Write a PVD file, which ParaView plays.
-
-    Args:
-        path: of the file.
-        entries: value of the time, number of the part, name of the file, in the order of time.
-    """
+    """Write a PVD file, which ParaView plays."""
     text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
     text += "".join(
         f'  <DataSet timestep="{time:.12g}" part="{part}" file="{escape(file)}"/>\n' for time, part, file in entries

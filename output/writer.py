@@ -35,28 +35,7 @@ def write_results(
     report: Report,
     parts: Callable[[Path], None] | None = None,
 ) -> tuple[str, ...]:
-    """Write a result folder on rank 0 (collective).
-
-    Args:
-        out: the folder, made whole or not at all.
-        summary: content of ``summary.json``; the seconds that writing takes are added.
-        scene_file: where the scene was read; ``None`` if it was made in Python.
-        tables: writes files of numbers into a folder.
-        arrays: returns the labelled arrays of ``dataset.nc``.
-        kind: the declared quantities of the kind of scene.
-        attributes: of ``dataset.nc`` as a whole, further ones.
-        pictures: draws into a folder; ``None`` draws nothing.
-        text: returns the content of ``summary.md``.
-        page: writes a page about the results and warnings into the folder; ``None`` writes none.
-        report: called with the name of each step.
-        parts: writes files of each process into a folder (collective); ``None`` writes none.
-
-    Returns:
-        Warnings: pictures that could not be drawn, and why.
-
-    Raises:
-        FolderError: if the folder cannot be written.
-    """
+    """Write a result folder on rank 0 (collective)."""
     comm, watch = MPI.COMM_WORLD, Stopwatch()
     problem: BaseException | None = None
     warnings: list[str] = []

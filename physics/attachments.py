@@ -130,9 +130,6 @@ class OutsideForces:
         Args:
             speeds: returns the velocities along the paths, shape (d,), with a damping, shape (m, m).
             factor: `REGULAR` or `IRREGULAR`.
-
-        Raises:
-            ArithmeticError: if the iteration does not converge.
         """
         found = speeds(np.zeros_like(self.damping))
         for _ in range(_MOST_STEPS):

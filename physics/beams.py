@@ -51,7 +51,6 @@ class Beam(Body):
     ends: Literal["free", "guided"] = "free"
 
     def __post_init__(self) -> None:
-        """Check the numbers and the places of the joints."""
         values = (value for part in self.sections for value in vars(part).values())
         if not self.sections or not all(isfinite(value) and value > 0.0 for value in values):
             raise ValueError("a beam needs sections with positive lengths, flexural rigidities and masses")

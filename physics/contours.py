@@ -232,9 +232,6 @@ class Contour:
 
         The chain follows the contour counterclockwise; where the level cuts an arc, the arc is cut. Contact points
         have exactly y = level, also corners that lie within `AT_LEVEL` of it.
-
-        Raises:
-            ValueError: if the level meets the contour in other than two points.
         """
         return self._chain(level, -1)
 

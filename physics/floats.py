@@ -48,7 +48,6 @@ class RigidFloat(Body):
 
     @property
     def _by_place(self) -> dict[int, Dof]:
-        """Its motions by their index in stiffness and inertia."""
         return {PLACES[motion]: dof for motion, dof in zip(self.motions, self.rigid_motions, strict=True)}
 
     @property

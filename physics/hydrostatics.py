@@ -113,9 +113,6 @@ def still_level(contour: Contour | SolidOfRevolution, mass: float | None, densit
         contour: in the float's frame, m.
         mass: displaced, kg/m, or kg of a solid; None floats with the reference level y = 0 at the still level.
         densities: ρ₂ below and ρ₁ above the level, kg/m³.
-
-    Raises:
-        ValueError: if it is too light or too heavy to float at the level.
     """
     if mass is None:
         return 0.0
@@ -151,9 +148,6 @@ def hydrostatics(
         centre_of_mass: height of G above the reference level, m; by default that of the section's area.
         radius_of_gyration: about G, m; by default that of the homogeneous section.
         vertical_force: F of moorings, upwards, N/m, or N of a solid.
-
-    Raises:
-        ValueError: if the level does not meet the contour in two points.
     """
     chain = contour.below(0.0)
     left, right = chain[0].start[0], chain[-1].end[0]

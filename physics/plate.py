@@ -207,7 +207,6 @@ class Plate:
     slats: bool = False
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
         if not (self.flexural_rigidity > 0.0 and isfinite(self.mass_per_area) and self.mass_per_area >= 0.0):
             raise ValueError("a plate needs a positive flexural rigidity and a mass per area that is not negative")
         if not -1.0 < self.poisson_ratio <= 0.5:

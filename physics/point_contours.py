@@ -59,9 +59,6 @@ def outline_contour(points: Array, corner_angle: float) -> Contour:
     Args:
         points: points (x, y), m, in either sense, shape (n, 2), no point twice.
         corner_angle: least change of direction at a corner, degrees.
-
-    Raises:
-        ValueError: if the points lie too far apart or too unevenly for a spline.
     """
     points = points if _doubled_area(points) > 0.0 else points[::-1]
     # Edge n runs from point n to the next one; the turn at point n is that from the edge before to edge n.

@@ -63,7 +63,6 @@ class Profile:
     tail: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         if self.shape not in get_args(FloatShape):
             raise ValueError(f"shape is {self.shape!r}; known are {', '.join(get_args(FloatShape))}")
         for name in ("half_width", "half_height"):
@@ -125,9 +124,6 @@ class Profile:
         """The right side from the lowest point (0, −extent) to the highest (0, extent), in smooth arcs.
 
         They meet in `corners`, the two ends excepted; the left side is the mirror image.
-
-        Raises:
-            ValueError: for an exponential with ``tail`` = 0, which has no outline.
         """
         self._check_bounded()
         b, h, end = self.half_width, self.half_height, self.extent
@@ -149,9 +145,6 @@ class Profile:
         """Points (x, y), x ≥ 0, where the outline of the whole section has a corner, from below, m, shape (n, 2).
 
         Those at x = 0 are the pointed ends, where the right side meets its mirror image.
-
-        Raises:
-            ValueError: for an exponential with ``tail`` = 0, which has no outline.
         """
         self._check_bounded()
         b, end = self.half_width, self.extent
@@ -222,9 +215,6 @@ def float_profile(shape: FloatShape, half_width: float, half_height: float, tail
         half_width: b, half of the breadth at y = 0, m.
         half_height: h, half of the height, m; the decay length 1/μ of the exponential.
         tail: where the exponential ends, as a part of its half-width before the ending; other shapes do not use it.
-
-    Raises:
-        ValueError: if a quantity is out of its range.
     """
     if shape == "exponential":
         return Profile(shape=shape, half_width=half_width, half_height=half_height, tail=tail)
@@ -232,11 +222,7 @@ def float_profile(shape: FloatShape, half_width: float, half_height: float, tail
 
 
 def profile_contour(profile: Profile) -> Contour:
-    """Return the closed contour of a section, counterclockwise from its lowest point, m.
-
-    Raises:
-        ValueError: for an exponential with ``tail`` = 0, which has no outline.
-    """
+    """Return the closed contour of a section, counterclockwise from its lowest point, m."""
     right = tuple(_right(arc) for arc in profile.arcs)
     return Contour(right + tuple(_mirrored(arc) for arc in reversed(right)))
 

@@ -49,7 +49,6 @@ class RoundPlate(Body):
     order: int | None = None
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
         if not (0.0 <= self.inner_radius < self.radius < inf and isfinite(self.mass_per_area + self.tension)):
             raise ValueError("a round plate needs a radius, larger than an inner one, a mass and a tension")
         if min(self.mass_per_area, self.tension) < 0.0 or self.flexural_rigidity + self.tension <= 0.0:

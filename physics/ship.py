@@ -24,7 +24,6 @@ class Ship:
     quadratic_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         if not (math.isfinite(self.natural_frequency) and self.natural_frequency > 0):
             raise ValueError(f"natural_frequency is {self.natural_frequency}; it must be finite and positive")
         for name in ("damping", "quadratic_damping"):

@@ -121,7 +121,6 @@ class UniformStream(_OfHeight):
     velocity: Vector
 
     def __post_init__(self) -> None:
-        """Check that they are vectors."""
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
 
     def times(self, factor: float) -> UniformStream:
@@ -152,7 +151,6 @@ class ShearedStream(_OfHeight):
     level: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check that they are vectors."""
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
         object.__setattr__(self, "gradient", _vector(self.gradient, "gradient"))
         _finite(self.level, "level")
@@ -184,7 +182,6 @@ class VeeringStream(_OfHeight):
     rate: float
 
     def __post_init__(self) -> None:
-        """Check that they are finite."""
         _finite(self.speed, "speed")
         _finite(self.rate, "rate")
 
@@ -221,7 +218,6 @@ class TabulatedStream(_OfHeight):
     interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:
-        """Check heights, shapes and the interpolation."""
         levels = tuple(float(level) for level in self.levels)
         velocities = tuple(_vector(row, "velocities") for row in self.velocities)
         if len(levels) < 2 or not np.isfinite(levels).all() or (np.diff(levels) <= 0).any():

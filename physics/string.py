@@ -42,7 +42,6 @@ class HangingString:
     tip_displaced_mass: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the ranges and the tension."""
         for name in ("length", "linear_density", "gravity"):
             _require(name, getattr(self, name), positive=True)
         for name in ("tip_mass", "added_mass", "displaced_mass", "tip_displaced_mass"):

@@ -54,7 +54,6 @@ class _Values:
 
 class _Unbounded(_Values):
     def __post_init__(self) -> None:
-        """Check that the parameters are finite."""
         for parameter in fields(self):  # type: ignore[arg-type]
             value = getattr(self, parameter.name)
             if not math.isfinite(value):
@@ -137,7 +136,6 @@ class Smooth(_Unbounded):
     rate: float
 
     def __post_init__(self) -> None:
-        """Check that the rate is positive."""
         super().__post_init__()
         if self.rate <= 0:
             raise ValueError(f"rate is {self.rate}: it must be positive")
@@ -180,9 +178,6 @@ def tabulated(
 
     Returns:
         The motion, known until the last time of the table.
-
-    Raises:
-        ValueError: if the table is shorter than two rows, not finite, or its times do not rise from 0.
     """
     times, values = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
     if times.ndim != 1 or times.shape != values.shape or len(times) < 2:
@@ -219,10 +214,6 @@ def sampled(
 
     Returns:
         The motion, known until `end`.
-
-    Raises:
-        ValueError: if an argument is not allowed, the function is not finite, or the tolerance is not met by 65536
-            intervals.
     """
     if not (end > 0 and math.isfinite(end)):
         raise ValueError(f"end is {end}: it must be positive and finite")

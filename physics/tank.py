@@ -296,7 +296,6 @@ class Tank:
 
     @cached_property
     def _places(self) -> dict[int, tuple[StillLevel, Piece]]:
-        """Level and piece of each body, by its index."""
         return {piece.body: (level, piece) for level in self.levels for piece in level.pieces if piece.body is not None}
 
     def nodes_of(self, body: int) -> dict[float, float]:

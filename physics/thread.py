@@ -157,7 +157,6 @@ class Thread:
     tension: float | None = None
 
     def __post_init__(self) -> None:
-        """Check ranges and shapes."""
         if self.dimension not in (2, 3):
             raise ValueError(f"dimension is {self.dimension}: it must be 2 or 3")
         if not (isfinite(self.length) and self.length > 0.0):

@@ -33,7 +33,6 @@ class ThreadLoad:
     stream: Stream | None = None
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         if not math.isfinite(self.weight):
             raise ValueError(f"weight is {self.weight}: it must be finite")
         for name in ("normal_drag", "tangential_drag", "viscous_drag"):

@@ -78,7 +78,6 @@ class VortexShedding:
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check that they are finite."""
         for name in ("lift", "wave_number", "phase"):
             if not isfinite(getattr(self, name)):
                 raise ValueError(f"{name} is {getattr(self, name)}: it must be finite")

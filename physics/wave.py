@@ -26,7 +26,6 @@ class WaveTrain:
     slopes: FloatArray
 
     def __post_init__(self) -> None:
-        """Convert sequences to arrays and check the ranges."""
         for name in ("periods", "slopes"):
             values = np.array(getattr(self, name), dtype=float)
             values.setflags(write=False)

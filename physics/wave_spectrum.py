@@ -93,7 +93,6 @@ class PeakedSpectrum(WaveSpectrum):
 
     @cached_property
     def _scale(self) -> float:
-        """A."""
         if self.enhancement == 1.0:
             return 1.0
         energy = sum(

@@ -173,11 +173,7 @@ class Triangles:
         return Triangles(points=every[used], corners=numbers.reshape(-1, 3))
 
     def require_closed(self) -> None:
-        """Refuse the part below a level if only it and the level do not close a body, all triangles turned alike.
-
-        Raises:
-            OpenSurfaceError: with a place where it is open, or triangles are turned the other way.
-        """
+        """Refuse the part below a level if only it and the level do not close a body, all triangles turned alike."""
         if not len(self.corners):
             raise OpenSurfaceError("does not reach below the still level")
         sides = np.stack([self.corners, np.roll(self.corners, -1, axis=1)], axis=2).reshape(-1, 2)

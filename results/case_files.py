@@ -13,12 +13,7 @@ TANK_COLUMNS = ("seconds", "unknowns", "degree", "attempts")
 
 
 def tank_row(found: Any, reference: Sequence[float]) -> dict[str, Any]:
-    """Return the largest true error and estimate over the modes of an answer, and what they cost.
-
-    Args:
-        found: the answer, of tests/support/answers.py.
-        reference: true angular frequencies, rad/s.
-    """
+    """Return the largest true error and estimate over the modes of an answer, and what they cost."""
     return {
         "status": found.summary["status"],
         "true_error": float(np.abs(found.errors(reference)).max()),
@@ -31,14 +26,7 @@ def tank_row(found: Any, reference: Sequence[float]) -> dict[str, Any]:
 
 
 def write_cases(name: str, columns: Sequence[str], rows: Sequence[dict[str, Any]], page: str) -> None:
-    """Write the rows, numbers with three digits and nothing where something is unknown, and the page beside them.
-
-    Args:
-        name: of the folder beside this file, and of both files.
-        columns: headings, keys of the rows.
-        rows: what was measured.
-        page: Markdown.
-    """
+    """Write the rows, numbers with three digits and nothing where something is unknown, and the page beside them."""
     folder = Path(__file__).parent / name
     folder.mkdir(exist_ok=True)
     with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:

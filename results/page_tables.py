@@ -135,7 +135,6 @@ def table_text(problem: Table) -> str:
 
 
 def _points(rows: list[dict[str, str]], problem: Table, case: str, method: Method) -> list[tuple[float, float]]:
-    """Seconds and errors of a method in one case."""
     return [
         (float(row["seconds_median"]), max(float(row["error"]), _LEAST_ERROR))
         for row in rows
@@ -175,11 +174,7 @@ def shares_text() -> str:
 
 
 def pages() -> dict[Path, str]:
-    """Each page with its tables as the measurements have them now.
-
-    Raises:
-        ValueError: if a table has no place on its page, or two.
-    """
+    """Each page with its tables as the measurements have them now."""
     benchmarks = {f"results/benchmarks/{problem.file}.csv": table_text(problem) for problem in TABLES}
     tables = {
         "speed_against_error.md": {"the pages in results/benchmarks": machines_text(), **benchmarks},

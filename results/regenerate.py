@@ -60,11 +60,7 @@ OTHER_TABLES = ("summary.json", "summary.md")
 
 
 def regenerate(name: str) -> str:
-    """Run one scene and keep the small part of its results.
-
-    Returns:
-        The status of the run.
-    """
+    """Run one scene and keep the small part of its results."""
     scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
         outcome = run_scene(scene, out=Path(scratch) / name, images=SMALL if name in FEW else SHOWN)

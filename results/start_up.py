@@ -44,16 +44,7 @@ Seconds = dict[str, float]
 
 
 def measure_run(scene: str, cache: Path, *, images: bool) -> tuple[Seconds, dict[str, Any]]:
-    """Run a scene in a process of its own.
-
-    Args:
-        scene: name of a shipped scene, or a file.
-        cache: folder of what is compiled.
-        images: whether to draw the modes.
-
-    Returns:
-        Seconds by stage with their total, and the content of ``summary.json``.
-    """
+    """Run a scene in a process of its own."""
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / "result"
         command = [sys.executable, "-m", "hydroelastic.scenes", "run", scene, "--out", str(out)]
@@ -106,11 +97,7 @@ def least(measured: Iterable[Seconds]) -> Seconds:
 
 
 def measure(scene: str, repeats: int) -> tuple[list[tuple[str, float, float]], Seconds, dict[str, Any]]:
-    """Repeat cold and warm runs.
-
-    Returns:
-        Stage, cold and warm seconds; seconds by library; the content of ``summary.json`` of one run.
-    """
+    """Repeat cold and warm runs."""
     cold, warm, bare, imports = [], [], [], []
     for number in range(1, repeats + 1):
         print(f"repeat {number} of {repeats}", flush=True)

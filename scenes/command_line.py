@@ -53,14 +53,10 @@ _PRINTING = ("click", "rich")
 
 
 class _BadInput(click.ClickException):
-    """The input of the user is invalid."""
-
     exit_code = BAD_INPUT
 
 
 class _Unsolved(click.ClickException):
-    """A valid scene was not solved."""
-
     exit_code = NOT_TO_TOLERANCE
 
 

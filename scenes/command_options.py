@@ -20,7 +20,6 @@ from hydroelastic.scenes.read import SHIPPED_FOLDER
 
 
 def _scenes(_context: click.Context, _parameter: click.Parameter, typed: str) -> list[CompletionItem]:
-    """What a shell completes: names of shipped scenes, and files."""
     names = sorted(path.stem for path in SHIPPED_FOLDER.glob("*.toml"))
     return [*(CompletionItem(name) for name in names if name.startswith(typed)), CompletionItem(typed, type="file")]
 

@@ -23,11 +23,7 @@ def file_of_scene(scene: str) -> Path | None:
 
 
 def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
-    """Return the result folder of a scene, after a check that nothing in it would be lost.
-
-    Raises:
-        SceneError: if the folder cannot be written, or is the default one and has the results of another scene.
-    """
+    """Return the result folder of a scene, after a check that nothing in it would be lost."""
     file = file_of_scene(scene)
     stem = "standard_input" if file is None else file.stem
     folder = out if out is not None else Path("results") / f"{stem}{suffix}"

@@ -58,21 +58,15 @@ class SceneError(Exception):
     """
 
     def __init__(self, *problems: Problem, file: str | Path | None = None) -> None:
-        """Keep the problems and the file for the message."""
         super().__init__(*problems)
         self.problems = problems
         self.file = file
 
     def __str__(self) -> str:
-        """Return the message as Python shows it."""
         return self.text()
 
     def text(self, *, options: bool = False) -> str:
-        """Return one line for one problem, else a heading and one line each (ten at most).
-
-        Args:
-            options: whether arguments are named as options of the command line.
-        """
+        """Return one line for one problem, else a heading and one line each (ten at most)."""
         lines = [problem.line(options=options) for problem in self.problems]
         file = printable(str(self.file))
         if len(lines) == 1:
@@ -92,14 +86,7 @@ def cannot_be_meshed(error: Exception, file: str | Path | None = None) -> SceneE
 
 @contextmanager
 def folder_errors(option: str = "") -> Iterator[None]:
-    """Turn the error of a result folder that cannot be written into a message of the same form as all others.
-
-    Args:
-        option: of the command line that names the folder.
-
-    Raises:
-        SceneError: if a folder cannot be written within the block.
-    """
+    """Turn the error of a result folder that cannot be written into a message of the same form as all others."""
     try:
         yield
     except FolderError as error:

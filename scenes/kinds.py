@@ -49,11 +49,8 @@ def runner_of(scene: Scene) -> StagedRun[Any, Any]:
 
 
 def comparer_of(scene: Scene) -> Callable[..., Outcome]:
-    """Return the function that compares the field solution of a scene with the theories: ``compare(scene, report=…)``.
-
-    Raises:
-        SceneError: if there is no field solution of such a scene, or no theory.
-    """
+    """Return the function that compares the field solution of a scene with the theories: ``compare(scene,
+    report=…)``."""
     if isinstance(scene, TankScene) or scene.kind == "sea":
         closed_tank(scene, "the older theories that are compared are those of closed tanks")
         from hydroelastic.scenes.tank.run import compare_tank

@@ -11,12 +11,7 @@ _SAID_UNIT = re.compile(rf", ({_UNIT}(?:[/·]{_UNIT})*)(?=$|[;,.])")
 
 
 def how_to_write(text: str, description: str = "") -> str:
-    """Return the corrected form of a text that is nearly a number; empty otherwise.
-
-    Args:
-        text: the text found, with or without quotes.
-        description: of the value, in which its unit stands after a comma.
-    """
+    """Return the corrected form of a text that is nearly a number; empty otherwise."""
     bare = text.strip().strip("\"'").strip()
     with_comma = _WITH_COMMA.fullmatch(bare)
     if with_comma:

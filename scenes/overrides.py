@@ -43,11 +43,7 @@ TOO_DEEP = "its tables and lists are nested too deeply"
 
 
 def parsed_toml(text: str) -> Document:
-    """Return the content of a text of TOML.
-
-    Raises:
-        ValueError: if it is no TOML, or nested too deeply.
-    """
+    """Return the content of a text of TOML."""
     if _LONG_KEY.search(text):
         raise ValueError(TOO_DEEP)
     try:
@@ -68,11 +64,7 @@ def is_too_deep(value: Any) -> bool:
 
 
 def changes_of(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[Change]:
-    """Yield the changes of texts key=value, or of values by their keys.
-
-    Raises:
-        SceneError: if a text is not of that form.
-    """
+    """Yield the changes of texts key=value, or of values by their keys."""
     if isinstance(overrides, Mapping):
         for key, value in overrides.items():
             if is_too_deep(value):

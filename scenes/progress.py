@@ -8,15 +8,7 @@ from collections.abc import Callable, Iterator
 
 @contextlib.contextmanager
 def progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
-    """Show the scene and the current step on the terminal or in a notebook; nothing where there is neither.
-
-    Args:
-        title: of the scene.
-        shown: whether to show progress at all.
-
-    Yields:
-        A function to call with the name of each step.
-    """
+    """Show the scene and the current step on the terminal or in a notebook; nothing where there is neither."""
     if not shown:
         yield lambda _message: None
         return

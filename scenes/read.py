@@ -36,8 +36,6 @@ Scene: TypeAlias = "TankScene | SeaScene | LevelTankScene | OrderedTankScene | S
 
 
 class _SceneModels(Mapping[str, "type[Scene]"]):
-    """Imports the model of a kind of scene when it is asked for."""
-
     def __getitem__(self, kind: str) -> type[Scene]:
         if kind not in tuple(self):
             raise KeyError(kind)
@@ -294,7 +292,6 @@ def _piped() -> bytes:
 
 
 def _label(file: Path) -> str:
-    """What messages call a file."""
     return "the standard input" if file == STANDARD_INPUT else str(file)
 
 

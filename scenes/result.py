@@ -59,15 +59,12 @@ class Result:
     outcome: Outcome | None = None
 
     def __str__(self) -> str:
-        """Return the tables as the command line prints them."""
         return printed_sections(self.summary, self.sections, self.cost)
 
     def __repr__(self) -> str:
-        """Return title and status in one line."""
         return f"<Result of {title_of(self.summary)!r}: {read_summary(self.summary)[STATUS]}>"
 
     def _repr_html_(self) -> str:
-        """Return the main numbers and the tables, for notebooks."""
         from hydroelastic.scenes.report.answer import answer
         from hydroelastic.scenes.report.write import rendered
 

@@ -22,23 +22,7 @@ def run_scene(
     import_seconds: float = 0.0,
     report: Report = lambda _message: None,
 ) -> Outcome:
-    """Solve a scene and write its result folder (collective).
-
-    Args:
-        scene: the scene.
-        out: result folder, made whole or not at all; ``None`` writes nothing.
-        images: how to draw; ``None`` draws nothing.
-        page: whether to write ``report.html`` into the folder.
-        import_seconds: time that importing libraries took, for the record.
-        report: called with the name of each step.
-
-    Returns:
-        The solution, its summary and its tables.
-
-    Raises:
-        SceneError: if a file that the scene names cannot be used, or the folder cannot be written.
-        UnsolvedError: if the scene cannot be solved.
-    """
+    """Solve a scene and write its result folder (collective)."""
     return runner_of(scene)(
         scene,
         out=out,
@@ -50,11 +34,7 @@ def run_scene(
 
 
 def page_writer(scene: Scene) -> Callable[[Outcome, Path], None]:
-    """Return the function that writes ``report.html`` into a result folder. Its libraries are imported now.
-
-    Args:
-        scene: the scene.
-    """
+    """Return the function that writes ``report.html`` into a result folder. Its libraries are imported now."""
     from hydroelastic.scenes.report.write import write_report
 
     return partial(write_report, scene)

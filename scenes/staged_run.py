@@ -87,21 +87,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         import_seconds: float = 0.0,
         report: Report = lambda _message: None,
     ) -> Outcome:
-        """Solve a scene and write its result folder (collective).
-
-        Args:
-            scene: the scene.
-            out: result folder, made whole or not at all; ``None`` writes nothing.
-            scene_file: where the scene was read; ``None`` if it was made in Python.
-            images: how to draw; ``None`` draws nothing.
-            page: writes a page about the outcome into the folder, on rank 0 and last; ``None`` writes none.
-            import_seconds: time that importing libraries took, for the record.
-            report: called with the name of each step.
-
-        Raises:
-            SceneError: if a file that the scene names cannot be used, or the folder cannot be written.
-            UnsolvedError: if the scene cannot be solved.
-        """
+        """Solve a scene and write its result folder (collective)."""
         outcome = self.solved(scene, import_seconds=import_seconds, report=report)
         if out is None:
             return outcome
@@ -114,14 +100,7 @@ class StagedRun(Generic[_Scene, _Solution]):
     def outcome(
         self, scene: _Scene, solution: _Solution, *, tables: bool = True, import_seconds: float = 0.0
     ) -> Outcome:
-        """Return the outcome of a solution (collective).
-
-        Args:
-            scene: the scene.
-            solution: of it.
-            tables: whether the tables are made, without which nothing can be printed or written.
-            import_seconds: as for a call.
-        """
+        """Return the outcome of a solution (collective)."""
         summary = self.summarized(scene, solution, import_seconds)
         told = self.read(summary)
         sections = tuple(self.sections(solution, told)) if tables else ()
@@ -145,11 +124,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         page: Callable[[Outcome, Path], None] | None = None,
         report: Report = lambda _message: None,
     ) -> Outcome:
-        """Write the result folder of a solved scene (collective). The arguments and errors are those of a call.
-
-        Returns:
-            The outcome with the folder and the warnings; its summary has the seconds of writing too.
-        """
+        """Write the result folder of a solved scene (collective). The arguments and errors are those of a call."""
         solution = outcome.solution
         timing = {**self.read(outcome.summary)[TIMING]}
         summary = {**outcome.summary, TIMING.key: timing}

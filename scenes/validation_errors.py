@@ -28,12 +28,7 @@ Location: TypeAlias = tuple[str | int, ...]
 
 
 def readable_key(location: Location, *, table: Literal["", "one", "many"] = "") -> str:
-    """Return a location as the author writes it, for example ``[[body]] number 1, key "start"``.
-
-    Args:
-        location: table, number of the entry from 0, key; as far as it goes.
-        table: whether a lone first name is a table ("one"), a list of tables ("many") or a plain key ("").
-    """
+    """Return a location as the author writes it, for example ``[[body]] number 1, key "start"``."""
     if not location:
         return ""
     name = shown_value(str(location[0]))[1:-1]
@@ -51,13 +46,7 @@ def readable_key(location: Location, *, table: Literal["", "one", "many"] = "") 
 
 
 def scene_error(error: ValidationError, model: type[BaseModel], *, file: str | Path | None = None) -> SceneError:
-    """Convert a validation error of a scene to a `SceneError` in terms of the scene file.
-
-    Args:
-        error: what pydantic raised.
-        model: the model that was validated; its fields give the allowed values and the proposals.
-        file: the scene file, named in the message.
-    """
+    """Convert a validation error of a scene to a `SceneError` in terms of the scene file."""
     details = error.errors(include_url=False)
     proposed = {location for detail in details if (location := _proposed_location(detail, model)) is not None}
     broken = {detail["loc"][:length] for detail in details for length in range(1, len(detail["loc"]))}
@@ -127,7 +116,6 @@ def _wrong(detail: Any, value: object, place: _Place) -> str:
 
 
 def _takes_a_number(field: FieldInfo | None) -> bool:
-    """Whether a number may stand for the table of a field."""
     return field is not None and any(isinstance(part, BeforeValidator) for part in field.metadata)
 
 
@@ -140,7 +128,6 @@ def _missing(place: _Place) -> Problem:
 
 
 def _unknown_kind(place: _Place, entry: Any) -> Problem:
-    """An entry of no kind, or of one that none of its models has."""
     if not isinstance(entry, dict):
         return Problem(key=readable_key(place.location), value=shown_value(entry), wrong=_WRONG["model_type"])
     kind = entry.get("kind")

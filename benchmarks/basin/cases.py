@@ -67,11 +67,7 @@ BASINS = (
 
 
 def basin_named(name: str) -> Basin:
-    """The basin of that name.
-
-    Raises:
-        KeyError: if there is none.
-    """
+    """The basin of that name."""
     return {basin.name: basin for basin in BASINS}[name]
 
 

@@ -213,7 +213,6 @@ def _loads(
 
 
 def _legendre(place: ngsolve.CoefficientFunction, count: int, side: float) -> list[ngsolve.CoefficientFunction]:
-    """Legendre polynomials orthonormal on a side."""
     found = [ngsolve.CoefficientFunction(1.0), place]
     for k in range(1, count - 1):
         found.append(((2 * k + 1) * place * found[k] - k * found[k - 1]) / (k + 1))

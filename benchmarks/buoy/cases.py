@@ -65,11 +65,7 @@ BUOYS = (
 
 
 def buoy_named(name: str) -> Buoy:
-    """The buoy of that name.
-
-    Raises:
-        KeyError: if there is none.
-    """
+    """The buoy of that name."""
     return {buoy.name: buoy for buoy in BUOYS}[name]
 
 

@@ -95,7 +95,6 @@ def _points(along: Grid, radii: Grid, around: Grid) -> Grid:
 
 
 def _faces(shape: tuple[int, ...]) -> NDArray[np.int64]:
-    """Four corners of each cell of a grid of points."""
     numbers = np.arange(shape[0] * shape[1]).reshape(shape[:2])
     corners = [numbers[:-1, :-1], numbers[1:, :-1], numbers[1:, 1:], numbers[:-1, 1:]]
     return np.stack(corners, axis=-1).reshape(-1, 4)

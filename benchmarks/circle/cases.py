@@ -69,21 +69,12 @@ CIRCLE = (
 
 
 def circle_frequency(name: str) -> CircleFrequency:
-    """The frequency of that name.
-
-    Raises:
-        KeyError: if there is none.
-    """
+    """The frequency of that name."""
     return {frequency.name: frequency for frequency in CIRCLE}[name]
 
 
 def circle_error(name: str, values: tuple[float, ...]) -> float:
-    """Largest relative error |h − h_exact|/|h_exact| of heave and sway, h = a' + ib'.
-
-    Args:
-        name: of the frequency.
-        values: a', b' of heave, a', b' of sway.
-    """
+    """Largest relative error |h − h_exact|/|h_exact| of heave and sway, h = a' + ib'."""
     exact = circle_frequency(name)
     heave, sway = complex(values[0], values[1]), complex(values[2], values[3])
     return max(abs(heave / exact.heave - 1.0), abs(sway / exact.sway - 1.0))

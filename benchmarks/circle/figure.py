@@ -37,7 +37,6 @@ def _key(row: Row) -> tuple[Code, Variant, float]:
 
 
 def _style(code: Code, variant: Variant, length: float) -> tuple[CurveStyle, str]:
-    """How a series is drawn, and its label."""
     if variant == "one length":
         style = CurveStyle(colour=_COLOURS[length], marker="s", dashes=":", hollow=True)
         return style, f"{NAMES[code]}, cylinder of {length:g} radii"

@@ -107,9 +107,5 @@ TANKS = (
 
 
 def tank_named(name: str) -> BenchmarkTank:
-    """The tank of that name.
-
-    Raises:
-        KeyError: if there is none.
-    """
+    """The tank of that name."""
     return {tank.name: tank for tank in TANKS}[name]

@@ -12,13 +12,6 @@ def dry_shapes(count: int, s: FloatArray) -> FloatArray:
     """Evaluate the shapes of `hydroelastic.modal.free_free_shape`, in one go.
 
     W_j(s) = e^{−bs} ± e^{−b(1−s)} + cos bs − σ sin bs but for what is scaled out, with b = κ_j l, from the nearer end.
-
-    Args:
-        count: how many shapes: heave, pitch, elastic ones.
-        s: positions in [0, 1], any shape.
-
-    Returns:
-        The values, shape (count, *s.shape).
     """
     roots = free_free_roots(max(count - RIGID_SHAPES, 0)).reshape(-1, *(1 for _ in s.shape))
     parity = np.where(np.arange(len(roots)) % 2 == 0, 1.0, -1.0).reshape(roots.shape)

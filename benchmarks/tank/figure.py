@@ -58,7 +58,6 @@ def draw_speed(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
 
 
 def _described(name: str) -> str:
-    """The tank in words."""
     beam = tank_named(name).beam
     restoring = "with" if beam.hydrostatic else "without"
     return (

@@ -48,17 +48,7 @@ class QuadMesh:
 
 
 def graded_quads(length: float, depth: float, beam: tuple[float, float], grading: QuadGrading) -> QuadMesh:
-    """Mesh 0 < x < length, −depth < y < 0.
-
-    Args:
-        length: of the part of the tank that is meshed, m.
-        depth: of the liquid, m.
-        beam: abscissae of its ends, of which the second may lie beyond the part that is meshed, m.
-        grading: how fine.
-
-    Returns:
-        The mesh.
-    """
+    """Mesh 0 < x < length, −depth < y < 0."""
     tips = [tip for tip in beam if tip <= length]
     distances = [abs(tip - other) for tip in tips for other in (0.0, length, *tips) if tip != other]
     width = min(0.5 * min(distances), 0.5 * depth, grading.water_size)

@@ -68,12 +68,7 @@ def pencils_of(solution: TankSolution) -> tuple[CoupledPencil, ...]:
 
 
 def bound_of(solution: TankSolution, tank: BenchmarkTank) -> Bound:
-    """What the modes of a solution take at the least.
-
-    Args:
-        solution: of the tank.
-        tank: with its exact frequencies.
-    """
+    """What the modes of a solution take at the least."""
     pencils = [BarePencil.of(pencil) for pencil in pencils_of(solution)]
     solvers = [available_factorizations()["SuperLU"](pencil.laplace) for pencil in pencils]
     values = [

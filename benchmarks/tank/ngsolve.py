@@ -86,7 +86,6 @@ def _mesh(tank: BenchmarkTank, resolution: PeerResolution, *, halves: bool) -> n
 def _surface(
     tank: BenchmarkTank, mesh: ngsolve.Mesh, space: ngsolve.H1, resolution: PeerResolution, *, halves: bool
 ) -> tuple[np.ndarray, Surface]:
-    """Unknowns of the top, and its matrices."""
     trial, test = space.TnT()
     form = ngsolve.BilinearForm(space, check_unused=False)
     form += trial * test * ngsolve.ds("water")

@@ -49,12 +49,6 @@ def class_frequencies(
     """Lowest ω of one class of modes, rad/s.
 
     As Kη = ρgSη on the water and the liquid's momentum there is ρSψ, K⁻¹ of it is ψ/g, and nothing is to be inverted.
-
-    Args:
-        tank: the tank.
-        surface: its top, cut down to the shapes of the class.
-        modes: the class.
-        answer: load on the top → ψ on the top, with ψ = 0 at one unknown if the liquid keeps its volume.
     """
     beam = tank.beam
     shapes = len(modes.shapes)

@@ -98,19 +98,7 @@ class _Condensed:
 
 
 def lowest_eigenvalues(problem: SurfaceProblem, count: int, *, tolerance: float = 1e-12) -> SurfaceModes:
-    """Lowest eigenvalues λ > 0 by the Lanczos method.
-
-    Args:
-        problem: the eigenproblem.
-        count: how many; fewer come back if the problem has fewer.
-        tolerance: relative error of λ that the iteration may leave, by the bound residual²/gap.
-
-    Returns:
-        The eigenvalues and the number of answers of the liquid.
-
-    Raises:
-        RuntimeError: if they did not converge.
-    """
+    """Lowest eigenvalues λ > 0 by the Lanczos method."""
     operator = _Condensed(problem)
     steps = min(_MOST_STEPS, problem.size - len(problem.free_rigid))
     basis, weighed_basis = np.empty((steps, problem.size)), np.empty((steps, problem.size))
@@ -138,7 +126,6 @@ def lowest_eigenvalues(problem: SurfaceProblem, count: int, *, tolerance: float 
 
 
 def _start(problem: SurfaceProblem, operator: _Condensed) -> FloatArray:
-    """A vector with a part in each mode, the more the lower."""
     noise: FloatArray = np.random.default_rng(20).standard_normal(problem.size)
     noise[problem.free_rigid] = 0.0
     noise = operator.keep_volume(noise)

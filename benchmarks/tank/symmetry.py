@@ -39,11 +39,7 @@ def mode_classes(shapes: int, *, halves: bool) -> tuple[ModeClass, ...]:
 
 
 def lowest_of(classes: tuple[tuple[float, ...], ...]) -> tuple[float, ...]:
-    """The lowest modes of all classes together.
-
-    Raises:
-        RuntimeError: if a class may hold more of them than were solved for.
-    """
+    """The lowest modes of all classes together."""
     merged = sorted(value for values in classes for value in values)[:MODES]
     if len(classes) > 1 and any(max(values) <= merged[-1] for values in classes):
         raise RuntimeError("one class of modes holds more of the lowest modes than were solved for")

@@ -117,7 +117,6 @@ def solve(case: Case) -> Answer:
 
 @contextlib.contextmanager
 def _system(given: _Input, currents: str = "") -> Iterator[tuple[Any, Path]]:
-    """A system that is not initialised yet, and its folder."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "line.txt").write_text(given.text, encoding="utf-8")

@@ -108,7 +108,6 @@ class _Shapes(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _of_parity(dofs: tuple[Dof, ...], signs: tuple[int, ...], parity: Parity | None) -> _Shapes:
-    """Return the shapes of one parity, or all of them."""
     parities: list[Parity] = ["symmetric" if sign > 0 else "antisymmetric" for sign in signs]
     numbers = np.array([number for number, own in enumerate(parities) if parity in (None, own)], dtype=int)
     identity = np.eye(len(numbers))

@@ -27,20 +27,10 @@ class BodyModel(ABC):
 
     @abstractmethod
     def moving(self, count: int, parity: Parity | None) -> Body:
-        """Return the body as unknowns of the field model.
-
-        Args:
-            count: number of dry modes, rigid ones included, of an elastic body; with none it is fixed.
-            parity: parity of the shapes, with the energies of half the body; ``None`` for all shapes of the whole body.
-        """
+        """Return the body as unknowns of the field model."""
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
-        """Return the number of dry modes that a tolerance needs, rigid ones included; 0 for a rigid body.
-
-        Args:
-            wavenumber: wavenumber of the shortest wave on the body, in units of the tank.
-            tolerance: largest relative error that is accepted.
-        """
+        """Return the number of dry modes that a tolerance needs, rigid ones included; 0 for a rigid body."""
         return 0
 
     def elastic_shapes(self, count: int) -> int:

@@ -50,11 +50,6 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
     They are heave, sway and roll where neither gravity, as in a section that is not its own mirror image, nor springs
     couple these. Those that are coupled are replaced by the motions in which the float alone, without liquid, would
     oscillate; each has the name and unit of the one with the largest part of its kinetic energy.
-
-    Args:
-        body: the float.
-        index: index of the float among the bodies.
-        parity: parity of the motions, with the energies of half the float; ``None`` for all motions of the whole float.
     """
     motions = tuple(motion for motion in body.motions if parity in (None, motion_parity(motion)))
     part = 1.0 if parity is None else 0.5
@@ -78,15 +73,7 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
 def principal_motions(
     body: RigidFloat, motions: tuple[Motion, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return n motions without coupling by stiffness or inertia, dimensionless.
-
-    Args:
-        body: the float.
-        motions: n of its motions.
-
-    Returns:
-        Their parts in the given motions as columns, shape (n, n), their stiffness and their inertia, shape (n,).
-    """
+    """Return n motions without coupling by stiffness or inertia, dimensionless."""
     places = [PLACES[motion] for motion in motions]
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
     turn = np.eye(len(motions))

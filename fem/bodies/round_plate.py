@@ -110,7 +110,6 @@ class RoundShapes:
     """
 
     def __init__(self, plate: RoundPlate, count: int, spare: int | None = None) -> None:
-        """Find the shapes."""
         assert plate.order is not None
         self._plate, rigid = plate, plate.rigid_motions
         self.count = count if plate.bends else min(count or len(rigid), len(rigid))

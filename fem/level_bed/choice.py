@@ -31,11 +31,7 @@ _TOUCHING = 1e-9
 
 
 def level_model(physical: LevelTank) -> LevelModel:
-    """Return the smallest model of a tank.
-
-    Raises:
-        NotTreatedError: if there is none.
-    """
+    """Return the smallest model of a tank."""
     if isinstance(physical, VolumeTank):
         return "volume"
     tank = physical.scaled()
@@ -71,11 +67,7 @@ def _require_plan(tank: LevelTank) -> None:
 
 
 def models_of(physical: LevelTank) -> tuple[LevelModel, ...]:
-    """Return all models that take a tank, the smallest one first.
-
-    Raises:
-        NotTreatedError: if there is none.
-    """
+    """Return all models that take a tank, the smallest one first."""
     found = [level_model(physical)]
     plates = physical.plates
     if found[0] == "volume":

@@ -135,26 +135,14 @@ class IntervalSpace:
         return whole[:-1, :-1]
 
     def load(self, cells: np.ndarray, values: FloatArray) -> FloatArray:
-        """Return ∫φv of functions φ.
-
-        Args:
-            cells: those on which they are not zero.
-            values: φ at the points of `quadrature` times their weights, shape (functions, cells, points).
-
-        Returns:
-            Loads, shape (functions, N).
-        """
+        """Return ∫φv of functions φ."""
         table = _reference(self.degree, gauss(values.shape[2])[0]).T
         loads = np.zeros((self.size + 1, len(values)))
         np.add.at(loads, self.unknowns[cells].ravel(), np.moveaxis(values @ table, 0, -1).reshape(-1, len(values)))
         return loads[:-1].T
 
     def moments(self, start: float, end: float, middle: float, side: float, count: int) -> FloatArray:
-        """Return ∫u p_m between two nodes, for the orthonormal Legendre polynomials of a side about its middle.
-
-        Returns:
-            Shape (N, count).
-        """
+        """Return ∫u p_m between two nodes, for the orthonormal Legendre polynomials of a side about its middle."""
         cells = self.between(start, end)
         places, weights = self.quadrature(cells, self.degree + 1 + count // 2)
         values = polynomials_of(count, places.ravel() - middle, side).reshape(count, *places.shape)

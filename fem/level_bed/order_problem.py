@@ -119,14 +119,7 @@ class LineOperator:
 def order_pencil(
     tank: LevelTank, line: Line, modes: dict[int, LineModes], *, pressure_release: bool
 ) -> CoupledPencil[LineLiquid]:
-    """Assemble the problem of one order, alike on each process.
-
-    Args:
-        tank: the dimensionless tank.
-        line: the space of ψ, of that order.
-        modes: shapes of the plates that move in it, by their index.
-        pressure_release: whether ψ = 0 on the water, whatever the tank's top.
-    """
+    """Assemble the problem of one order, alike on each process."""
     covered = [line.between(*place) for place in line.separation.places]
     water = np.setdiff1d(line.cells, covered_elements(line))
     released = pressure_release or tank.top == "pressure_release"
@@ -204,7 +197,6 @@ def _water(line: Line, elements: np.ndarray) -> tuple[FloatArray, FloatArray]:
 
 
 def _matrix(values: FloatArray) -> PETSc.Mat:
-    """A sparse matrix of this process alone."""
     sparse = csr_matrix(values)
     rows = sparse.indptr.astype(PETSc.IntType), sparse.indices.astype(PETSc.IntType), sparse.data
     matrix = PETSc.Mat().createAIJ(sparse.shape, csr=rows, comm=PETSc.COMM_SELF)

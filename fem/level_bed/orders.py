@@ -175,14 +175,7 @@ def solve_order(
 def solve_orders(
     tank: LevelTank, separation: Separation, resolution: LineResolution, count: int
 ) -> tuple[OrderSolution, ...]:
-    """Solve order after order, until as many modes are found as are wanted, and no order can have a lower one.
-
-    Args:
-        tank: the dimensionless tank.
-        separation: its orders.
-        resolution: of the lines.
-        count: number of modes of all orders together; each order is solved for as many.
-    """
+    """Solve order after order, until as many modes are found as are wanted, and no order can have a lower one."""
     found: list[OrderSolution] = []
     values = np.empty(0)
     for order in itertools.count():

@@ -56,14 +56,7 @@ class _Found:
 
 
 def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: float) -> PlateTone:
-    """Return the first elastic tone of a plate, and that with ψ = 0 on the water.
-
-    Args:
-        tank: the dimensionless tank.
-        separation: its orders.
-        plate: index of the plate.
-        tolerance: largest relative error of the frequencies that is accepted.
-    """
+    """Return the first elastic tone of a plate, and that with ψ = 0 on the water."""
     order, dry = lowest_dry(partial(plate_line, tank, separation, plate))
     body = tank.plates[plate]
     start, end = separation.places[plate]
@@ -107,7 +100,6 @@ def _sought(
     solve: Callable[..., AdaptiveSolution[_Found]],
     release: float | None,
 ) -> PlateTone:
-    """The tone among so many modes of its order, or among more."""
     assert found.order is not None
     exponent = 0.5 if tank.top == "pressure_release" else 1.0
     search = line_resolution(tank, separation, _SEARCHED, eigenvalue, exponent=exponent)
@@ -147,7 +139,6 @@ def _solved(
     pressure_release: bool = False,
     release: float | None = None,
 ) -> AdaptiveSolution[_Found]:
-    """Solve one order for the tone of a plate to a tolerance."""
     tolerance = workable(tolerance)
     once = partial(_once, tank, separation, plate, order, count=count, release=release)
 

@@ -84,16 +84,7 @@ def line_resolution(
     exponent: float = 1.0,
     waves: bool = True,
 ) -> LineResolution:
-    """Return the resolution for the waves up to a frequency.
-
-    Args:
-        tank: the dimensionless tank.
-        separation: its orders.
-        tolerance: largest relative error that is accepted.
-        eigenvalue: λ of the highest mode.
-        exponent: α of ψ ~ r^α at the edges: 1 for r ln r, ½ beside a surface with ψ = 0.
-        waves: whether there are waves on the water.
-    """
+    """Return the resolution for the waves up to a frequency."""
     # Cheapest for each tolerance in tanks with known modes, as in two dimensions; a line may have a degree more.
     degree = min(max(ceil(1.5 - 0.75 * log10(tolerance)), 5), HIGHEST_DEGREE - 2)
     sizes, shapes = [], [0] * len(tank.plates)
@@ -138,13 +129,7 @@ def moving_piece(tank: LevelTank, length: float, index: int | None) -> LevelPiec
 
 def expected_eigenvalue(tank: LevelTank, count: int, *, multiplicity: int = 1) -> float:
     """Return about the λ of the highest of some modes: that of open water with as many, by Weyl's law A k²/4π, or in a
-    narrow tank of waves along it alone, kL/π.
-
-    Args:
-        tank: the dimensionless tank.
-        count: number of modes.
-        multiplicity: how many of the waves are one of the modes.
-    """
+    narrow tank of waves along it alone, kL/π."""
     waves, area, unit = multiplicity * (count + 2), tank.plan.area, tank.plan.unit
     wavenumber = min(sqrt(4.0 * pi * waves / area), pi * waves / max(unit, area / unit))
     return wavenumber * tanh(wavenumber * tank.depth)

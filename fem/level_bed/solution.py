@@ -50,14 +50,7 @@ class PlanProblem(LevelProblem, Protocol):
     """A problem whose modes are sampled at places of the plan."""
 
     def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
-        """Return a mode at places of the plan.
-
-        Args:
-            mode: one of its modes.
-            x: dimensionless, shape (places,).
-            y: likewise.
-            second: whether the second one of two modes with the same frequency is meant.
-        """
+        """Return a mode at places of the plan."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,11 +159,7 @@ class LevelSolution(ClosedSolution[LevelTank]):
 
 
 def shift_above(eigenvalues: np.ndarray) -> float:
-    """Return the middle of the widest of the last gaps between λ, where the number of modes is counted.
-
-    Args:
-        eigenvalues: λ of the lowest modes of all problems, ascending.
-    """
+    """Return the middle of the widest of the last gaps between λ, where the number of modes is counted."""
     if len(eigenvalues) < 2:
         return 2.0 * float(eigenvalues[-1]) if len(eigenvalues) else 1.0
     gaps = eigenvalues[1:] / eigenvalues[:-1]

@@ -47,22 +47,7 @@ class _Attempt:
 def solve_level_tank(
     physical: LevelTank, *, tolerance: float, modes: int, tones: bool = True, report: Report = lambda _message: None
 ) -> LevelSolution:
-    """Solve an upright tank with a level bed, alike on each process.
-
-    Args:
-        physical: the tank, in SI units.
-        tolerance: largest relative error of the frequencies that is accepted.
-        modes: number of modes, from the lowest.
-        tones: whether the first elastic tones are sought.
-        report: receives messages on the progress.
-
-    Returns:
-        The solution, with `LevelSolution.reasons` where it does not keep the tolerance.
-
-    Raises:
-        NotTreatedError: if its orders do not separate.
-        EigenSolverError: if the eigen-solver fails.
-    """
+    """Solve an upright tank with a level bed, alike on each process."""
     watch = Stopwatch()
     tank = physical.scaled()
     separation = separated(tank)

@@ -34,16 +34,7 @@ _RESIDUAL = 1e-2
 
 
 def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> int | None:
-    """Count the resonances in a region, less those of the water around fixed bodies (collective).
-
-    Args:
-        solver: solver of the field model.
-        boundary: maps places from 0 to 4, shape (points,), to ω in rad/s on the boundary of the region, shape
-            (points,), counterclockwise.
-
-    Returns:
-        The winding number of det D; ``None`` where its phase is not resolved.
-    """
+    """Count the resonances in a region, less those of the water around fixed bodies (collective)."""
     _prepare(solver, boundary)
     # Near a zero or a pole of det D its phase turns fast.
     turning = np.zeros(0) if isinstance(solver, DampedSolver) else np.append(*solver.zeros_and_poles())
@@ -93,7 +84,6 @@ def _prepare(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> No
 
 
 def _phases(solver: Solver, omegas: np.ndarray) -> np.ndarray:
-    """det D over its magnitude at some ω."""
     squares = np.array([solver.model.squared_frequency(omega) for omega in omegas])
     if isinstance(solver, OpenSolver):
         added, water = solver.hydrodynamics(squares), np.ones(len(squares))

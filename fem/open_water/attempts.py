@@ -27,15 +27,7 @@ def best_in_basin(
     *,
     infinite_frequency: bool = False,
 ) -> Attempt[Result]:
-    """Return the best of a few attempts in one basin (collective).
-
-    Args:
-        tank: the basin.
-        tolerance: largest relative error that is accepted.
-        solve: solves at a resolution.
-        first: resolution of the first attempt.
-        infinite_frequency: whether the infinite-frequency limit is solved.
-    """
+    """Return the best of a few attempts in one basin (collective)."""
 
     def solved(resolution: Resolution) -> Attempt[Result]:
         if resolution is not first:
@@ -49,12 +41,6 @@ def best_in_basin(
 def best_over_band(
     problem: OpenWaterProblem, band: Band, solve: Callable[[Resolution], Attempt[Result]]
 ) -> Attempt[Result]:
-    """Return the best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
-
-    Args:
-        problem: the open water.
-        band: the frequencies.
-        solve: solves at a resolution.
-    """
+    """Return the best of a few attempts over a range of frequencies, from the resolution that it needs (collective)."""
     tank = open_basin(problem.tank, band.wavenumbers(problem.tank)[1], reach=band.reach).tank
     return best_in_basin(tank, problem.tolerance, solve, first_resolution(problem.tank, problem.tolerance, band))

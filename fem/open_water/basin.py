@@ -110,15 +110,7 @@ class OpenBasin:
 def open_basin(
     water: Tank, shortest: float, *, drawn: float | None = None, reach: tuple[float, float] | None = None
 ) -> OpenBasin:
-    """Cut a basin out of open water.
-
-    Args:
-        water: open water in SI units, with at least one body.
-        shortest: the largest wavenumber of the outgoing waves, 1/m; 0 if there are none.
-        drawn: for a basin that contains the length of the scene, as a picture needs it: largest distance from the
-            bodies to each side, in radians of the shortest wave. ``None`` for forces and motions alone.
-        reach: smallest and largest x that the basin contains at least, m.
-    """
+    """Cut a basin out of open water."""
     left, right, low, high = extent_of_bodies(water)
     solid = water.geometry.is_revolved
     extent = max(right if solid else 0.5 * (right - left), -low, high)
@@ -232,10 +224,6 @@ class AbsorbingLayer:
         liquids (kX)⁻² of ψ ~ 1/(kX), about an axis k⁻²X⁻³ of ψ ~ 1/(kX²). Measured on beams: at both ends the
         exponentials are 1.0 to 2 times the error, the power 20 times; they count one and a half times and by half.
         About an axis a wave a that is reflected by r comes back as r a (2J − H), and changes a by 2ra².
-
-        Args:
-            basin: the basin.
-            wavenumber: k, in units of the basin.
         """
         reach, bounded = wavenumber * self.farthest, sum(depth for depth in basin.depths if isfinite(depth))
         evanescent = exp(-pi * self.farthest * cos(self.angle) / bounded) if bounded else 0.0
@@ -248,16 +236,7 @@ class AbsorbingLayer:
 def sized_absorbing_layer(
     basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float
 ) -> AbsorbingLayer:
-    """Return the absorbing layer that a tolerance needs.
-
-    Args:
-        basin: the basin.
-        wavenumbers: smallest and largest wavenumber of the outgoing waves, in units of the basin.
-        first: width of the first layer of cells in radians of the shortest wave.
-        growth: ratio of the distances of successive layers of cells.
-        angle: angle α of the complex scaling, rad.
-        tolerance: largest relative error that is accepted.
-    """
+    """Return the absorbing layer that a tolerance needs."""
     longest, shortest = wavenumbers
     decades = log(1.0 / (CUT * tolerance))
     # A wave passes the layer twice, outgoing and reflected. So do evanescent modes e^{−κx} with κ > π/(2H), H the whole

@@ -92,13 +92,7 @@ class BeamLoads:
         ]
 
     def of(self, response: OpenResponse, motions: np.ndarray, drag: np.ndarray) -> AlongBeam:
-        """Return deflection and loads in each incident wave (collective).
-
-        Args:
-            response: to waves.
-            motions: of all body unknowns, those of the response or with further damping, shape (incident, unknowns).
-            drag: linear damping in place of each drag of `OutsideForces`, dimensionless, shape (incident, drags).
-        """
+        """Return deflection and loads in each incident wave (collective)."""
         own, squared = motions[:, self._own], response.squared.real
         waves = [response.incidence.planes[place] for place in response.incident]
         total = response.scattered_by(motions)
@@ -118,10 +112,6 @@ class BeamLoads:
         modes, of wavenumbers above κ, is a load (Δρ g + ω²(m + ρ/κ)) δw, whose integrals are smaller by κ and κ²; and
         it changes the forces of springs and dampers by the same part as the deflection. What these modes change in
         those in use is that of `weakened_attachments`.
-
-        Args:
-            response: to waves of c = 1.
-            omitted: largest deflection in the omitted dry modes, shape (incident,).
         """
         squared, unit = response.squared.real, np.eye(response.motions.shape[1])
         radiated = response.radiated_by(unit)
@@ -262,19 +252,7 @@ class _Trace:
 def _added(
     liquid: LiquidSpace, group: FacetGroup, wavenumber: float, start: float, x: np.ndarray, loads: np.ndarray
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Add whole facets to the left of each x, and the part to its left of that in which it lies.
-
-    Args:
-        liquid: the space of ψ.
-        group: facets of the surface.
-        wavenumber: of waves in closed form.
-        start: left end of the surface.
-        x: distances from there, shape (p,).
-        loads: of all unknowns, for both integrals at each x, shape (2p, unknowns); increased.
-
-    Yields:
-        Points, their layers, and their weights in the integrals of shape (2p, points).
-    """
+    """Add whole facets to the left of each x, and the part to its left of that in which it lies."""
     ends = group.physical_points(group.reference_corners)
     away = ends[:, :, 0] - start
     nodes, weights = leggauss(ceil(0.5 * (liquid.degree + wavenumber * group.longest)) + _SPARE_POINTS)

@@ -15,14 +15,8 @@ from hydroelastic.fem.open_water.plate_modes import PlateModes
 
 
 def bent(modes: PlateModes, response: OpenResponse, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
-    """Return the amplitudes of all modes of a plate in each wave of a unit of c, shape (incident, modes) (collective).
-
-    Args:
-        modes: of the plate.
-        response: to waves.
-        motions: of all body unknowns, those of the response or with further damping, shape (incident, unknowns).
-        drag: see `PlateModes.amplitudes`, shape (incident, drags).
-    """
+    """Return the amplitudes of all modes of a plate in each wave of a unit of c, shape (incident, modes)
+    (collective)."""
     return modes.amplitudes(response.squared.real, _pressures(modes, response, motions), motions, drag)
 
 
@@ -43,16 +37,7 @@ def omitted_effect(modes: PlateModes, response: OpenResponse) -> np.ndarray:
 
 
 def omitted_deflections(modes: PlateModes, response: OpenResponse, dual: np.ndarray) -> np.ndarray:
-    """Return what the waves radiated by the further modes change motions by, by their dual solutions (collective).
-
-    Args:
-        modes: of the plate.
-        response: to waves.
-        dual: see `functional_errors.dual_motions`, shape (functionals, body unknowns).
-
-    Returns:
-        Shape (functionals, incident).
-    """
+    """Return what the waves radiated by the further modes change motions by, by their dual solutions (collective)."""
     pressures = response.model.pencil.products(response.radiated_by(dual), modes.loads[modes.count :])
     further = bent_without_drag(modes, response)[:, modes.count :]
     return np.asarray(abs(response.squared) * np.abs(pressures @ further.T))

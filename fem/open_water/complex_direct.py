@@ -73,8 +73,6 @@ class ShiftedSolver:
 
 
 class _Factorization:
-    """LDLᵀ of a real form that may change."""
-
     def __init__(self, matrix: PETSc.Mat, *, definite: bool = False) -> None:
         self.matrix = matrix
         matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)

@@ -118,7 +118,6 @@ def scaled_surface_mass(
 
 
 def _turned(abscissas: np.ndarray, edge: float, s: complex) -> np.ndarray:
-    """x̃ at abscissas beyond the edge of the basin."""
     return np.asarray(edge + s * (abscissas - edge))
 
 

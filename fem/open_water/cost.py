@@ -43,16 +43,7 @@ class DecayCost:
 
 
 def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCost:
-    """Estimate the cost from the first mesh, which gmsh makes.
-
-    Args:
-        water: open water in SI units.
-        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
-        request: the release.
-
-    Raises:
-        MeshError: if no mesh can be made.
-    """
+    """Estimate the cost from the first mesh, which gmsh makes."""
     at_rest = [body.hydrostatics for body in water.floats.values()]
     # At infinite frequency the added mass is about the mass of the float; only the logarithm of the frequency matters.
     expected = sorted(sqrt(own.heave_stiffness / (2.0 * own.mass)) for own in at_rest)
@@ -70,16 +61,7 @@ def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCos
 
 
 def first_size(water: Tank, tolerance: float, band: Band) -> tuple[int, int, int]:
-    """Return cells, degree and unknowns of ψ of the first mesh for a range of frequencies, which gmsh makes.
-
-    Args:
-        water: open water in SI units, of one azimuthal order.
-        tolerance: largest relative error that is accepted.
-        band: the frequencies.
-
-    Raises:
-        MeshError: if no mesh can be made.
-    """
+    """Return cells, degree and unknowns of ψ of the first mesh for a range of frequencies, which gmsh makes."""
     resolution = first_resolution(water, tolerance, band)
     mesh = first_mesh(water, tolerance, band, resolution)
     return len(mesh.cells), resolution.degree, unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)

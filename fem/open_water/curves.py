@@ -52,12 +52,7 @@ class Curves:
     swept: Swept[OpenResponse]
 
     def at(self, omegas: np.ndarray, tolerance: float) -> Curves:
-        """Return the responses at all these frequencies and further ones (collective).
-
-        Args:
-            omegas: rad/s.
-            tolerance: see `certified`.
-        """
+        """Return the responses at all these frequencies and further ones (collective)."""
         union = np.union1d(self.omegas, omegas)
         places = [int(place) for place in np.searchsorted(union, self.omegas)]
         meshed, reduced = (between(union, places, own) for own in (self.errors - self.reduced, self.reduced))
@@ -73,9 +68,6 @@ class Curves:
         """Return the same on a basis that is accurate at all of the frequencies, with its errors alone (collective).
 
         Between the frequencies of a sweep waves may change that are much shorter than the bodies.
-
-        Args:
-            tolerance: of what the sweep compares, a part of which is left to the basis.
         """
         if self.reduced.max() <= SHARE * tolerance:
             return replace(self, errors=self.reduced)
@@ -96,15 +88,7 @@ class Curves:
 def certified_curves(
     solver: OpenSolver, incident: list[int], omegas: np.ndarray, problem: Problem[OpenResponse], tolerance: float
 ) -> Curves:
-    """Return refined curves by a reduced basis that is accurate at all of their frequencies (collective).
-
-    Args:
-        solver: of the problem.
-        incident: indices of the incident waves.
-        omegas: frequencies to begin with, rad/s, shape (n,).
-        problem: solves at a frequency.
-        tolerance: of what `Problem.difference` compares, and of the splines, see `refined_curves`.
-    """
+    """Return refined curves by a reduced basis that is accurate at all of their frequencies (collective)."""
     swept = sweep(problem, omegas, tolerance)
     return refined_curves(solver, incident, omegas, swept, tolerance).certified(tolerance)
 
@@ -112,15 +96,7 @@ def certified_curves(
 def refined_curves(
     solver: OpenSolver, incident: list[int], omegas: np.ndarray, swept: Swept[OpenResponse], missed: float
 ) -> Curves:
-    """Add frequencies to a sweep until splines meet the next ones (collective).
-
-    Args:
-        solver: with the reduced basis of the sweep.
-        incident: indices of the incident waves.
-        omegas: of the sweep, rad/s, shape (n,).
-        swept: the sweep.
-        missed: largest distance of a motion from the spline, relative to the largest motion of the same unit.
-    """
+    """Add frequencies to a sweep until splines meet the next ones (collective)."""
     found = {float(omega): one for omega, one in zip(omegas, swept.solutions, strict=True)}
     errors = {float(omega): float(error) for omega, error in zip(omegas, swept.errors, strict=True)}
     turns = np.array([dof.is_rotation for dof in solver.model.scale.dofs])
@@ -164,7 +140,6 @@ def refined_curves(
 
 
 def _motions_of(response: OpenResponse) -> np.ndarray:
-    """Motions per elevation, shape (incident, body unknowns)."""
     motions: np.ndarray = response.motions * response.per_elevation(RIGHTWARD)[:, None]
     return motions
 

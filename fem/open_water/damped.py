@@ -88,11 +88,7 @@ class _Waves:
     scattering: np.ndarray
 
     def without_radiation(self, responses: np.ndarray) -> _Motions:
-        """Motions without outgoing waves.
-
-        Args:
-            responses: LᵀT⁻¹L.
-        """
+        """Motions without outgoing waves."""
         count = len(responses) - len(self.pressures)
         excitation = self.pressures + responses[count:, :count]
         scattering = self.scattering + responses[count:, count:]
@@ -217,11 +213,7 @@ class DampedSolver:
         return None
 
     def refined(self, eigenvalue: complex) -> Eigenpair:
-        """The resonance next to a λ; its potential is that of the elements, without the waves φ (collective).
-
-        Raises:
-            EigenSolverError: if Newton's method does not converge.
-        """
+        """The resonance next to a λ; its potential is that of the elements, without the waves φ (collective)."""
         squared = eigenvalue
         for _ in range(_MOST_SOLUTIONS):
             self.radiation(squared)
@@ -280,15 +272,7 @@ class DampedSolver:
 def damped_resonances(
     solver: DampedSolver, region: Region, shallowest: float, known: list[complex], spacing: float
 ) -> list[complex]:
-    """Resonances of a region on the basis, rad/s, by ascending |ω| (collective).
-
-    Args:
-        solver: solver with a basis that resolves the region.
-        region: region of ω.
-        shallowest: −Im ω/Re ω above which starts of Newton's method cover the region.
-        known: approximate ω of known resonances, rad/s.
-        spacing: distance in ln ω of the points at which Newton's method begins.
-    """
+    """Resonances of a region on the basis, rad/s, by ascending |ω| (collective)."""
     unit = solver.model.basin.units.frequency
     found: list[complex] = []
     for start in (*known, *_starts(region, shallowest, spacing)):
@@ -302,7 +286,6 @@ def damped_resonances(
 
 
 def _starts(region: Region, shallowest: float, spacing: float) -> list[complex]:
-    """Points all over the damped part of a region, rad/s."""
     angles = np.arange(atan(shallowest), atan(region.damping) + spacing, spacing)
     highest = region.highest * np.sqrt(1.0 + region.damping**2)
     sizes = np.exp(np.arange(np.log(region.lowest), np.log(highest), spacing))

@@ -67,7 +67,6 @@ class DriftingFloatError(ValueError):
     """
 
     def __init__(self, motions: list[str]) -> None:
-        """Store the motions."""
         super().__init__(f"nothing restores {' and '.join(motions)}")
         self.motions = motions
 
@@ -106,24 +105,12 @@ class _ResonantMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class _Waves:
-    """The integral along the ray at one resolution, and its model."""
-
     model: OpenModel
     found: RayMotion
 
 
 def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolution:
-    """Motion after a release, with an error below the tolerance times the initial displacement (collective).
-
-    Args:
-        problem: the open water.
-        request: the release.
-
-    Raises:
-        EigenSolverError: if SLEPc fails.
-        UnstableFloatError: if a float would capsize.
-        DriftingFloatError: if a float would drift away.
-    """
+    """Motion after a release, with an error below the tolerance times the initial displacement (collective)."""
     limit = bodies_at_infinite_frequency(problem)
     _check_release(limit, request)
     # Dry modes of beams of much higher frequency deform quasi-statically in the motion of the float.
@@ -165,14 +152,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
 
 
 def ray_band(water: Tank, tolerance: float, request: DecayRequest, expected: list[float]) -> Band:
-    """Return the range of frequencies that the mesh of the ray resolves.
-
-    Args:
-        water: open water in SI units.
-        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
-        request: the release.
-        expected: approximate natural frequencies of the bodies, rad/s, ascending.
-    """
+    """Return the range of frequencies that the mesh of the ray resolves."""
     latest = max(*request.times, 1.0 / expected[-1])
     return Band(
         lowest=min(lowest_meshed_frequency(water, latest), expected[0]),
@@ -199,12 +179,7 @@ def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -
 
 
 def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> None:
-    """Raise an error for a release after which a body does not return to its position of rest.
-
-    Raises:
-        UnstableFloatError: if a float would capsize.
-        DriftingFloatError: if the release starts a motion without restoring force.
-    """
+    """Raise an error for a release after which a body does not return to its position of rest."""
     restoring = np.diag(limit.stiffness)
     if np.any(restoring[limit.of_floats] < 0.0):
         raise UnstableFloatError("a float is unstable and would capsize")
@@ -219,14 +194,7 @@ def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> N
 def _resonant_motion(
     problem: OpenWaterProblem, request: DecayRequest, resonances: list[complex], highest: float
 ) -> Attempt[_ResonantMotion]:
-    """The motion in the resonances to the right of the ray, on a mesh for their waves (collective).
-
-    Args:
-        problem: the open water.
-        request: the release.
-        resonances: approximate ω of those to the right of the ray, rad/s.
-        highest: highest frequency of the mesh of the ray, rad/s: both parts have the same basin, and the same units.
-    """
+    """The motion in the resonances to the right of the ray, on a mesh for their waves (collective)."""
     lowest = min((_BELOW * abs(omega) for omega in resonances), default=highest)
     band = Band(lowest=lowest, highest=highest)
     times = np.array([*request.times, 0.0])
@@ -272,7 +240,6 @@ def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolu
 
 
 def _initial(model: OpenModel, request: DecayRequest) -> np.ndarray:
-    """a₀ in body unknowns."""
     scale = model.scale
     given = {"heave": request.heave, "roll": request.roll, "pitch": request.roll}
     released = (None, request.body + 1)
@@ -329,5 +296,4 @@ def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> f
 
 
 def _spreads_in_deep_water(model: OpenModel) -> bool:
-    """Whether waves spread in two directions, on deep water."""
     return model.basin.tank.geometry.is_revolved and isinf(model.basin.depths[0])

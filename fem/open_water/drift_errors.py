@@ -117,15 +117,8 @@ def drift_errors(
     reduced: np.ndarray,
     damping: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Estimate errors of the drift force on sections per |c|² of each incident wave, shape (n, incident) (collective).
-
-    Args:
-        responses: at n frequencies.
-        omegas: these, shape (n,).
-        places: indices of those at which dual problems are solved.
-        reduced: errors of waves by the reduced basis, relative to the incident one, shape (n,).
-        damping: of the bodies beyond that of the equations of motion; ``None`` for that of the responses.
-    """
+    """Estimate errors of the drift force on sections per |c|² of each incident wave, shape (n, incident)
+    (collective)."""
     if responses[0].incidence.directions == 1:
         # One order alone has none: see `drift_of_orders`.
         return np.zeros((len(responses), len(responses[0].incident)))

@@ -30,17 +30,8 @@ _ROUNDED = float(np.finfo(float).eps) ** 2
 def wave_errors(
     responses: Sequence[OpenResponse], omegas: np.ndarray, places: list[int], reduced: np.ndarray
 ) -> np.ndarray:
-    """Estimate errors of aₙ of waves on one level by the mesh, along d and across it, and by other causes (collective).
-
-    Args:
-        responses: at n frequencies.
-        omegas: these, shape (n,).
-        places: indices of those at which dual problems are solved.
-        reduced: errors of waves by the reduced basis, relative to the incident one, shape (n,).
-
-    Returns:
-        Shape (n, 3); zero of sections and of waves on two levels.
-    """
+    """Estimate errors of aₙ of waves on one level by the mesh, along d and across it, and by other causes
+    (collective)."""
     if len(responses[0].incidence.planes) > 1:
         return np.zeros((len(responses), 3))
     sizes = np.maximum(np.abs([one.partial_waves()[0, 0] for one in responses]) ** 2, _ROUNDED)
@@ -69,12 +60,6 @@ def drift_of_orders(
     The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
     right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation. With the power lost in an
     order, Re aₙ + |aₙ|², the terms are those of −|aₙ − aₙ₊₁|², which tell the error by the last cause.
-
-    Args:
-        widths: (4/k) E (c_g/c)/A² of `drift_widths`, shape (n,).
-        waves: aₙ of the orders from 0 on, shape (n, orders).
-        errors: `wave_errors` of the orders, shape (n, orders, 3).
-        residuals: of the energy over the incident power, shape (n, orders).
     """
     own, following = waves[:, :-1], waves[:, 1:]
     forces: np.ndarray = -widths[:, None] * (own + following + 2.0 * own * following.conj()).real
@@ -92,12 +77,7 @@ def drift_of_orders(
 
 
 def drift_widths(tank: Tank, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return k, 1/m, and (4/k) E (c_g/c)/A², N/m², of waves on one level, each of shape (n,).
-
-    Args:
-        tank: the open water.
-        omega: rad/s, shape (n,).
-    """
+    """Return k, 1/m, and (4/k) E (c_g/c)/A², N/m², of waves on one level, each of shape (n,)."""
     waves = [travelling_waves(two_layers(tank), float(one))[0] for one in omega]
     wavenumbers = np.array([wave.wavenumber for wave in waves])
     momenta = [wave.wavenumber**2 * wave.energy / wave.elevation**2 for wave in waves]

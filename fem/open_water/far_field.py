@@ -65,15 +65,7 @@ class FarField:
         self._densities = np.array([layer.density for layer in liquid.layers])[self._layers]
 
     def fluxes(self, potentials: np.ndarray, fields: list[Field]) -> np.ndarray:
-        """Return I(φ) of every ψ (collective).
-
-        Args:
-            potentials: complex ψ on the own free unknowns, shape (potentials, free unknowns).
-            fields: the functions φ.
-
-        Returns:
-            Fluxes, complex, shape (fields, potentials).
-        """
+        """Return I(φ) of every ψ (collective)."""
         total = np.zeros((len(fields), len(potentials)), dtype=complex)
         values = [self._values(potential) for potential in potentials]
         layers = np.broadcast_to(self._layers[:, None], self._points.shape[:2])
@@ -97,11 +89,6 @@ class FarField:
         No corner of a hull lies in the band, at which |∇Ψ|² is not bounded: the integral converges as energies do.
 
         Source: X.-B. Chen, J. Eng. Math. 59 (2007) 61, of a control surface at some distance.
-
-        Args:
-            squared: λ.
-            potential: ψ of the scattered waves, shape (free unknowns,).
-            field: φ of the incident wave.
         """
         layers = np.broadcast_to(self._layers[:, None], self._points.shape[:2])
         gradient = self._values(potential)[1] + field(self._points, layers)[1]

@@ -167,14 +167,8 @@ class OpenModel:
         return matrix
 
     def energies_missed(self, potentials: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials ψ in cells away from tips and at tips (collective).
-
-        Args:
-            potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
-
-        Returns:
-            Both energies, dimensionless, each of shape (potentials,).
-        """
+        """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials ψ in cells away from tips and at tips
+        (collective)."""
         return self.summed_over_cells(self.cells_missed(potentials))
 
     def cells_missed(self, potentials: np.ndarray) -> np.ndarray:
@@ -220,13 +214,7 @@ class OpenModel:
     def errors(
         self, potentials: np.ndarray, responses: np.ndarray, truncation: np.ndarray | None = None
     ) -> FrequencyErrors:
-        """Relative errors of H of each body unknown, by cause (collective).
-
-        Args:
-            potentials: ψ radiated by a unit of each body unknown, shape (body unknowns, free unknowns).
-            responses: diagonal of |H|, shape (body unknowns,).
-            truncation: relative errors by truncating the absorbing layer, shape (body unknowns,); by default `cut`.
-        """
+        """Relative errors of H of each body unknown, by cause (collective)."""
         away, at_tips = self.energies_missed(potentials)
         scale = self.compared(np.abs(responses))
         tank = self.basin.tank

@@ -46,11 +46,7 @@ class SampledField:
 
 
 def sample_field(field: OpenField) -> SampledField | None:
-    """Sample a field where coordinates are real.
-
-    Returns:
-        The field on rank 0, ``None`` elsewhere (collective).
-    """
+    """Sample a field where coordinates are real."""
     model, tank = field.model, field.model.basin.tank
     pencil, liquid = model.pencil, model.pencil.liquid
     functions = as_functions(liquid, [pencil.vector(part) for part in (field.potential.real, field.potential.imag)])
@@ -81,7 +77,6 @@ def sample_field(field: OpenField) -> SampledField | None:
 
 
 def _in_basin(model: OpenModel) -> np.ndarray:
-    """Cells of this process where coordinates are real."""
     mesh = model.pencil.liquid.tank.mesh
     cells = owned_cells(mesh)
     middles = cell_corners(mesh, cells).mean(axis=1)

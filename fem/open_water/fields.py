@@ -69,15 +69,7 @@ class OpenField:
 
 
 def open_fields(problem: OpenWaterProblem, solution: OpenWaterSolution) -> Iterator[tuple[str, Iterator[OpenField]]]:
-    """Yield each analysis by its name with its fields, which are solved for one after the other (collective).
-
-    Args:
-        problem: open water; its length is that of the pictures.
-        solution: solution with the tables.
-
-    Raises:
-        MeshError: by the fields, if no mesh can be made.
-    """
+    """Yield each analysis by its name with its fields, which are solved for one after the other (collective)."""
     for number, radiation in enumerate(solution.radiation, 1):
         yield f"radiation {number}", _radiated(problem, radiation, number)
     for number, response in enumerate(solution.response, 1):
@@ -149,7 +141,6 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
 
 
 def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int, name: str) -> OpenField:
-    """The field of incident waves of a frequency ω, rad/s."""
     model, count = solver.model, len(table.waves)
     place = wave + (0 if table.waves_from == "left" else count)
     found = solver.response(omega, [place])
@@ -225,7 +216,6 @@ def _found_again(search: ResonanceSearch, squared: complex, watch: Stopwatch) ->
 
 
 def _why(reason: str, table: RadiationTable | ResponseTable) -> str:
-    """Reason for the choice of a frequency, if there are others."""
     return f", where {reason}" if len(table.omega) > 1 else ""
 
 

@@ -95,9 +95,6 @@ class OpenFrequency:
         The Galerkin method changes I(φ) by A_λ(φ_D − φ_Dh, ψⱼ − ψⱼh), which is at most the sum of √(E_D Eⱼ) over the
         cells, with the energy errors of both. Where a body reaches deeper than the waves, one of both is smooth in each
         cell: the error is as small as I(φ) itself.
-
-        Args:
-            unmeshed: relative error by curved boundaries and by rounding.
         """
         model, waves = self.model, self.incidence
         missed, count = model.cells_missed(np.vstack([self.radiated, self.diffracted])), len(self.radiated)
@@ -232,11 +229,7 @@ class OpenResponse:
         return powers
 
     def outgoing(self, motions: np.ndarray | None = None) -> np.ndarray:
-        """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident).
-
-        Args:
-            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
-        """
+        """Return c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
         incidence, scattered = self.incidence, self.fluxes
         if motions is None:
             motions = self.motions
@@ -247,11 +240,7 @@ class OpenResponse:
 
     def ratios(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape
-        (incident, outgoing waves).
-
-        Args:
-            motions: see `outgoing`.
-        """
+        (incident, outgoing waves)."""
         incidence = self.incidence
         # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
         phases = np.exp(1j * incidence.phases_at_origin(self.model.basin))
@@ -260,11 +249,8 @@ class OpenResponse:
         return found
 
     def partial_waves(self, motions: np.ndarray | None = None) -> np.ndarray:
-        """Return aₙ of the elevation εₙ iⁿ [Jₙ(kr) + aₙ Hₙ(kr)] cos nθ about an axis, shape (incident, outgoing waves).
-
-        Args:
-            motions: see `outgoing`.
-        """
+        """Return aₙ of the elevation εₙ iⁿ [Jₙ(kr) + aₙ Hₙ(kr)] cos nθ about an axis, shape (incident, outgoing
+        waves)."""
         scattered: np.ndarray = self.ratios(motions) - self.incidence.incoming * np.eye(len(self.incident))
         return scattered
 
@@ -284,9 +270,6 @@ class OpenResponse:
         Each wave train carries momentum kP/ω, P its power, towards the bodies or away: with waves of amplitude A from
         the left, F = ρgA² (c_g/2c)(1 + |R|² − |T|²), in deep water without absorption ½ρgA²|R|² (Maruo 1960;
         Longuet-Higgins 1977, Proc. R. Soc. Lond. A 352, 463).
-
-        Args:
-            motions: see `outgoing`.
         """
         if self.incidence.directions == 1:
             # One order alone has none: see `orders`.

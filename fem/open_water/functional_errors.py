@@ -26,15 +26,7 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 
 def functional_errors(response: OpenResponse, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Estimate errors of functionals J in each incident wave away from tips, with the absorbing layer, and at tips
-    (collective).
-
-    Args:
-        response: to waves of c = 1.
-        dual: y of each J, shape (functionals, body unknowns).
-
-    Returns:
-        Both errors of each J, each of shape (functionals, incident).
-    """
+    (collective)."""
     model, squared = response.model, abs(response.squared)
     loaded = model.cells_missed(response.radiated_by(dual))
     away, tips = model.summed_over_cells(np.sqrt(loaded[:, None] * response.missed))

@@ -61,12 +61,7 @@ class HighFrequencySeries:
 
 
 def arc(highest: complex, count: int) -> np.ndarray:
-    """Return ω of one magnitude from where p = −iω is positive to the ray, shape (count,).
-
-    Args:
-        highest: the end on the ray, Re ω > 0 > Im ω.
-        count: number of points.
-    """
+    """Return ω of one magnitude from where p = −iω is positive to the ray, shape (count,)."""
     omegas: np.ndarray = abs(highest) * np.exp(1j * np.linspace(0.5 * pi, np.angle(highest), count))
     return omegas
 
@@ -74,13 +69,7 @@ def arc(highest: complex, count: int) -> np.ndarray:
 def high_frequency_series(
     hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: complex, limit: np.ndarray
 ) -> HighFrequencySeries:
-    """Fit the series to H on the arc.
-
-    Args:
-        hydrodynamics: H, shape (n, m, m), at some ω (collective).
-        highest: the highest ω of the mesh on the ray, Re ω > 0 > Im ω.
-        limit: a(∞), shape (m, m).
-    """
+    """Fit the series to H on the arc."""
     omegas = arc(highest, _POINTS)
     wanted = hydrodynamics(omegas) - limit
     flat = wanted.reshape(len(omegas), -1)
@@ -102,10 +91,5 @@ def _terms(omegas: np.ndarray, orders: int) -> np.ndarray:
 
 
 def highest_meshed_frequency(fastest: float, tolerance: float) -> float:
-    """Return the highest frequency that the mesh must resolve, rad/s: the lower the tolerance, the higher.
-
-    Args:
-        fastest: largest natural frequency of the bodies, rad/s.
-        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
-    """
+    """Return the highest frequency that the mesh must resolve, rad/s: the lower the tolerance, the higher."""
     return fastest * (1.0 - 0.2 * log10(tolerance))

@@ -50,13 +50,6 @@ def hull_pressure(
     degree is high enough; beside it that of the resultants of the pressure, over the surface on which they act, and
     the relative ones by the reduced basis, the shape of the hull and rounding. The waves far away have larger errors:
     in long waves a body follows the water, and hardly changes the pressure in it.
-
-    Args:
-        responses: to waves, of one model.
-        reduced: their relative errors by the reduced basis, shape (n,).
-        index: of the float among the bodies.
-        towards: direction of the waves.
-        points: of the hull in the open water, m, shape (p, 2); by default those of the mesh.
     """
     model = responses[0].model
     units, comm = model.basin.units, model.pencil.comm

@@ -123,7 +123,6 @@ class Circular:
 
     @property
     def _factor(self) -> float:
-        """εₙ."""
         return 2.0 if self.geometry.order else 1.0
 
     @property
@@ -217,15 +216,7 @@ class Incidence:
         return amplitude / basin.units.length / np.array([plane.plane_elevation for plane in self.planes])
 
     def plane_forces(self, basin: OpenBasin, values: np.ndarray) -> np.ndarray:
-        """Forces per elevation of plane waves with phase 0 at x = 0 of the open water.
-
-        Args:
-            basin: the basin.
-            values: forces of the waves as they are, shape (waves, body unknowns).
-
-        Returns:
-            Shape (directions, waves of the dispersion relation, body unknowns), to the right and to the left.
-        """
+        """Forces per elevation of plane waves with phase 0 at x = 0 of the open water."""
         scaled = values * (np.exp(-1j * self.phases_at_origin(basin)) / self.elevations)[:, None]
         if self.directions == 2:
             return scaled.reshape(2, len(scaled) // 2, -1)

@@ -51,11 +51,7 @@ class BodiesAtInfiniteFrequency:
     motions: tuple[tuple[int, Dof], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
-        """Natural frequencies with this added mass, rad/s, ascending, of the motions with restoring force.
-
-        Args:
-            floats: whether only the floats move.
-        """
+        """Natural frequencies with this added mass, rad/s, ascending, of the motions with restoring force."""
         chosen = np.flatnonzero(self.of_floats) if floats else np.arange(len(self.stiffness))
         stiffness, whole = self.stiffness[np.ix_(chosen, chosen)], (self.mass + self.added_mass)[np.ix_(chosen, chosen)]
         if np.abs(stiffness - np.diag(np.diag(stiffness))).any():
@@ -103,15 +99,7 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
 
 
 def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]) -> tuple[np.ndarray, float]:
-    """Return the added mass at infinite frequency to the tolerance of the problem (collective).
-
-    Args:
-        problem: the open water.
-        shapes: number of dry modes of each beam, 0 for floats.
-
-    Returns:
-        a(∞), shape (body unknowns, body unknowns), in the units of `open_basin(tank, 0.0)`, and its relative error.
-    """
+    """Return the added mass at infinite frequency to the tolerance of the problem (collective)."""
     basin = open_basin(problem.tank, 0.0)
     tank, watch = basin.tank, problem.watch
     tolerance = workable_tolerance(problem.tolerance, tank.depth)

@@ -60,12 +60,7 @@ class LowFrequencySeries:
 
 
 def low_frequency_series(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LowFrequencySeries:
-    """Fit the series to H at a few low ω.
-
-    Args:
-        hydrodynamics: H, shape (n, m, m), at some ω (collective).
-        lowest: the lowest ω, Re ω > 0 > Im ω; the others lie on the line from the origin through it.
-    """
+    """Fit the series to H at a few low ω."""
     omegas = lowest * np.append(np.linspace(1.0, SPREAD, _POINTS), 2.0 * SPREAD)
     values = hydrodynamics(omegas)
     unit = SPREAD * abs(lowest)
@@ -86,12 +81,7 @@ def _terms(omegas: np.ndarray) -> np.ndarray:
 
 
 def lowest_meshed_frequency(water: Tank, latest: float) -> float:
-    """Return the lowest frequency that the mesh must resolve, rad/s.
-
-    Args:
-        water: open water in SI units.
-        latest: the last time at which the motion is wanted, s.
-    """
+    """Return the lowest frequency that the mesh must resolve, rad/s."""
     if not has_low_frequency_series(water):
         return _LOWEST_OVER_A_BED / latest
     layers, extent = two_layers(water), open_basin(water, 0.0).units.length

@@ -40,14 +40,7 @@ _DECOUPLED = 20.0
 
 
 def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float | None = None) -> Resolution:
-    """Return the initial resolution of open water, or of the length of a picture.
-
-    Args:
-        water: open water in SI units.
-        tolerance: largest relative error that is accepted.
-        band: the frequencies.
-        drawn: see `open_basin`.
-    """
+    """Return the initial resolution of open water, or of the length of a picture."""
     basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn, reach=band.reach)
     tank = basin.tank
     length = basin.units.length
@@ -81,15 +74,7 @@ def open_model(
     angle: float | None = None,
     drawn: float | None = None,
 ) -> OpenModel:
-    """Mesh and assemble open water (collective).
-
-    Args:
-        problem: the open water.
-        band: the frequencies.
-        resolution: resolution of the basin.
-        angle: angle α of the complex scaling, rad; by default that of the depth.
-        drawn: see `open_basin`.
-    """
+    """Mesh and assemble open water (collective)."""
     basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
     tank, watch = basin.tank, problem.watch
     with watch.stage("mesh"):
@@ -116,15 +101,7 @@ def open_model(
 def first_mesh(
     water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None = None
 ) -> TaggedMesh:
-    """Return the mesh of `open_model`, on the calling process.
-
-    Args:
-        water: open water in SI units.
-        tolerance: largest relative error that is accepted.
-        band: the frequencies.
-        resolution: resolution of the basin.
-        angle: angle α of the complex scaling, rad; by default that of the depth.
-    """
+    """Return the mesh of `open_model`, on the calling process."""
     basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
     return open_mesh(basin, resolution, absorbing_layer)
 
@@ -132,7 +109,6 @@ def first_mesh(
 def _laid(
     water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
 ) -> tuple[OpenBasin, AbsorbingLayer]:
-    """Return the basin and its absorbing layer."""
     wavenumbers = band.wavenumbers(water)
     basin = open_basin(water, wavenumbers[1], drawn=drawn, reach=band.reach)
     length = basin.units.length
@@ -160,14 +136,7 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidS
 def open_mesh(
     basin: OpenBasin, resolution: Resolution, absorbing_layer: AbsorbingLayer, *, infinite_frequency: bool = False
 ) -> TaggedMesh:
-    """Return the mesh of the basin by gmsh with its absorbing layer, on the calling process.
-
-    Args:
-        basin: the basin.
-        resolution: resolution of the basin.
-        absorbing_layer: dimensions of the absorbing layer.
-        infinite_frequency: whether it is for the infinite-frequency limit, see `Tank.has_continuous_pressure`.
-    """
+    """Return the mesh of the basin by gmsh with its absorbing layer, on the calling process."""
     from hydroelastic.meshes.build import build_mesh
 
     curved = any(not hull.is_thin for hull in basin.tank.hulls.values())

@@ -40,16 +40,7 @@ class MotionSolution:
 
 
 def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: WaterMemory) -> MotionSolution:
-    """Solve for the motion from rest or a release in waves, or in still water (collective).
-
-    Args:
-        problem: the open water.
-        request: waves and times.
-        water: the memory of the water.
-
-    Raises:
-        UnsolvedMotionError: if it grows without bound.
-    """
+    """Solve for the motion from rest or a release in waves, or in still water (collective)."""
     omega, amplitude, phase = (
         np.array([getattr(wave, name) for wave in request.waves]) for name in ("omega", "amplitude", "phase")
     )

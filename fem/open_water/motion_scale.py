@@ -87,12 +87,7 @@ class MotionScale:
 
 
 def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:
-    """Return the units of the motions of the bodies of a basin.
-
-    Args:
-        basin: the basin.
-        bodies: all of its bodies, in their order.
-    """
+    """Return the units of the motions of the bodies of a basin."""
     dofs = dof_names(body.dofs for body in bodies)
     return MotionScale(
         units=basin.units,

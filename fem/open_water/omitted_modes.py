@@ -78,11 +78,6 @@ def weakened_attachments(
 
     An attachment pulls with f = (K − iωB) u. In the omitted modes its point gives way by G f, which makes it weaker by
     (K − iωB) G f.
-
-    Args:
-        solution: the response.
-        dual: D⁻¹ m of each functional, see `functional_errors`, shape (functionals, body unknowns).
-        direct: what each functional takes of the force of an attachment itself, shape (functionals, 3), by its number.
     """
     change = np.zeros((len(dual), len(solution.motions)))
     for index in solution.model.basin.tank.beams:

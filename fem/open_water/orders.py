@@ -290,7 +290,6 @@ def _bending_orders(problem: OpenWaterProblem, request: ResonanceRequest) -> tup
 
 
 def _joined_region(regions: list[Region]) -> Region | None:
-    """Return a region with those of all orders in it."""
     if not regions:
         return None
     lowest, highest = min(one.lowest for one in regions), max(one.highest for one in regions)
@@ -373,7 +372,6 @@ def _dofs(
     problem: OpenWaterProblem,
     *tables: RadiationTable | ResponseTable | ResonanceTable | ImpulseResponseTable | MotionTable,
 ) -> tuple[Dof, ...]:
-    """Degrees of freedom of all orders, body by body."""
     rigid = dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
     elastic = (dof for table in tables for dof in table.dofs if dof.is_elastic)
     return tuple(sorted((*rigid, *elastic), key=lambda dof: dof.body or 0))
@@ -404,7 +402,6 @@ def _matrices(dofs: tuple[Dof, ...], parts: list[tuple[tuple[Dof, ...], np.ndarr
 
 
 def _largest(found: list[Solution]) -> Solution:
-    """The solution with the largest problem."""
     return max(found, key=lambda one: one.model.pencil.size if one.model is not None else 0)
 
 

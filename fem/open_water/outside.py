@@ -15,13 +15,7 @@ from hydroelastic.physics.round_plates import RoundPlate
 
 
 def outside_of(basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[Attachment, ...]) -> OutsideForces:
-    """Return the forces from outside on all body unknowns.
-
-    Args:
-        basin: the basin.
-        bodies: all of its bodies, in their order.
-        attachments: in SI units, in the coordinates of the open water.
-    """
+    """Return the forces from outside on all body unknowns."""
     paths = list(attachment_paths(basin, bodies, attachments))
     return outside_forces(paths, [one.scaled(basin.units) for one in attachments], sum(body.size for body in bodies))
 
@@ -44,14 +38,7 @@ def attachment_paths(
 
 def displacement_at(basin: OpenBasin, body: Body, index: int, point: tuple[float, float]) -> np.ndarray:
     """Return heave, sway and rotation of a point that moves with a body, by a unit of each of its unknowns, shape
-    (3, unknowns).
-
-    Args:
-        basin: the basin.
-        body: the body.
-        index: of it in the basin.
-        point: (x, y) in the coordinates of the open water, m.
-    """
+    (3, unknowns)."""
     length = basin.units.length
     x, y = (point[0] - basin.origin) / length, point[1] / length
     plate = basin.tank.bodies[index]

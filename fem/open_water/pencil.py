@@ -90,14 +90,7 @@ class OpenPencil:
 def build_open_pencil(
     liquid: LiquidSpace, scaling: ComplexScaling, *, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]
 ) -> OpenPencil:
-    """Assemble the problem (collective).
-
-    Args:
-        liquid: the space of ψ, with ψ = 0 at the outer sides of the absorbing layer.
-        scaling: region and angle of the complex scaling.
-        bodies: all bodies.
-        surfaces: free surface and interface, as far as waves travel on them.
-    """
+    """Assemble the problem (collective)."""
     zero_potential = liquid.surface_dofs(liquid.zero_potential)
     free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), zero_potential)
     matrices = partial(_matrices, liquid, scaling, surfaces, free)

@@ -101,13 +101,7 @@ def _around(radii: np.ndarray, orders: np.ndarray, r: np.ndarray, angle: np.ndar
 
 def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[PlanWaves]:
     """Yield the elevation at the frequencies asked for, or else where the motion of a body is largest, on rank 0
-    (collective).
-
-    Args:
-        problem: the sea with solids of revolution.
-        table: the response; of waves on one level only.
-        number: of the analysis.
-    """
+    (collective)."""
     if table.partial_waves is None or len(table.waves) > 1 or table.waves_from != "left":
         return
     omegas = table.fields_at or (_of_largest_motion(table),)
@@ -138,7 +132,6 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
 
 
 def _of_largest_motion(table: ResponseTable) -> float:
-    """Where plates bend most, or else bodies move most, rad/s."""
     shown = [dof for dof in table.dofs if dof.is_elastic] or [dof for dof in table.dofs if not dof.is_rotation]
     sizes = np.where([dof in shown for dof in table.dofs], np.abs(table.amplitudes[:, 0]), 0.0).max(axis=1)
     return float(table.omega[np.argmax(sizes)])
@@ -173,7 +166,6 @@ def _scattered(problem: OpenWaterProblem, band: Band, orders: int, amplitude: fl
 
 
 def _moving(tank: Tank, table: ResponseTable, row: int) -> Iterator[MovingSolid]:
-    """The rigid bodies with their motions at a frequency."""
     for index, body in enumerate(tank.bodies):
         if not isinstance(body, RigidFloat):
             continue

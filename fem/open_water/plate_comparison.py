@@ -23,12 +23,7 @@ _WIDE = 20.0
 
 
 def plate_comparisons(tank: Tank, solution: OpenWaterSolution) -> Iterator[Comparison]:
-    """Yield closed forms and estimates beside the solution of a sea with one round plate and one liquid.
-
-    Args:
-        tank: the sea in SI units.
-        solution: the field solution.
-    """
+    """Yield closed forms and estimates beside the solution of a sea with one round plate and one liquid."""
     plate = plate_of(tank.bodies[0])
     for radiation in solution.radiation:
         yield from _added_mass(tank, plate, radiation)
@@ -60,7 +55,6 @@ def _added_mass(tank: Tank, plate: RoundPlate, table: RadiationTable) -> Iterato
 
 
 def _following(plate: RoundPlate, table: ResponseTable) -> Comparison:
-    """Heave of a plate that follows the longest waves asked for."""
     row = int(np.argmin(table.omega))
     theory = abs(following_heave(float(table.wavenumbers[row, 0]), plate.inner_radius, plate.radius))
     field = np.abs(table.amplitudes[row, 0, table.dofs.index("heave")])

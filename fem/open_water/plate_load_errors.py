@@ -25,16 +25,7 @@ _SECTIONS = 7
 
 
 def plate_load_errors(model: OpenModel, index: int, solutions: list[OpenResponse]) -> np.ndarray:
-    """Return errors of moment and shear force over the rigidity anywhere on a round plate (collective).
-
-    Args:
-        model: the problem of one azimuthal order.
-        index: of the plate among the bodies.
-        solutions: responses to waves.
-
-    Returns:
-        Per c of each incident wave, in units of the basin, shape (solutions, 2, incident).
-    """
+    """Return errors of moment and shear force over the rigidity anywhere on a round plate (collective)."""
     modes, plate = model.plate_modes[index], plate_of(model.basin.tank.bodies[index])
     if not (plate.bends and plate.flexural_rigidity):
         return np.zeros((len(solutions), 2, len(solutions[0].incident)))
@@ -68,16 +59,7 @@ def _meshed(
     further: np.ndarray,
     missed: np.ndarray,
 ) -> np.ndarray:
-    """Errors by the mesh and by waves that further modes radiate, shape (loads, incident).
-
-    Args:
-        model: the problem.
-        index: of the plate among the bodies.
-        response: to waves.
-        weights: bₖ, shape (loads, modes).
-        further: part of the dual potential by further modes, shape (loads, free unknowns).
-        missed: square roots of its energy errors in own cells, shape (loads, cells).
-    """
+    """Errors by the mesh and by waves that further modes radiate, shape (loads, incident)."""
     modes, squared, products = model.plate_modes[index], response.squared.real, model.pencil.products
     further_modes = slice(modes.count, None)
     of_motions = -(weights / modes.restoring(squared))[:, further_modes] @ modes.held(squared)[:, further_modes].T

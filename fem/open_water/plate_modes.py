@@ -63,14 +63,7 @@ class PlateModes:
         self.given: dict[float, np.ndarray] = {}
 
     def amplitudes(self, squared: float, pressures: np.ndarray, motions: np.ndarray, drag: np.ndarray) -> np.ndarray:
-        """Return the amplitudes of all modes in waves at λ, shape (waves, modes).
-
-        Args:
-            squared: λ.
-            pressures: ∫ρΨ on all modes of all waves, shape (waves, modes).
-            motions: of all body unknowns, shape (waves, unknowns).
-            drag: linear damping in place of each drag of `OutsideForces`, dimensionless, shape (waves, drags).
-        """
+        """Return the amplitudes of all modes in waves at λ, shape (waves, modes)."""
         paths = self._outside.paths
         held = motions @ self.held(squared)
         held -= 1j * np.sqrt(squared) * (drag * (motions @ paths[:, self._known].T)) @ paths[:, self._modes]

@@ -26,15 +26,7 @@ _POSITIONS = 15
 def bent_in_order(
     tank: Tank, request: SpectrumRequest, curves: Curves, omegas: Floats, *, with_errors: bool = False
 ) -> list[RoundDeflection]:
-    """Return the deflection of each round plate in an order at some of its frequencies, without drag (collective).
-
-    Args:
-        tank: the sea in SI units.
-        request: the request.
-        curves: of the order.
-        omegas: among their frequencies.
-        with_errors: whether errors of loads by the mesh are told, too.
-    """
+    """Return the deflection of each round plate in an order at some of its frequencies, without drag (collective)."""
     model, places = curves.solver.model, np.searchsorted(curves.omegas, omegas)
     responses = [curves.responses[place] for place in places]
     of_loads = meshed_load_errors(curves) if with_errors else {}
@@ -75,17 +67,7 @@ def _part(request: SpectrumRequest, omegas: Floats, orders: np.ndarray, missing:
 
 
 def orders_left_out(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: list[list[RoundDeflection]]) -> float:
-    """Return what the orders left out change deflections and loads by, relative to the largest of each.
-
-    Args:
-        tank: the sea in SI units.
-        request: the request.
-        omegas: rad/s, shape (n,).
-        bent: `bent_in_order` of the orders 0, 1 …
-
-    Returns:
-        The largest of all plates, as a part of significant amplitudes.
-    """
+    """Return what the orders left out change deflections and loads by, relative to the largest of each."""
     orders, largest = np.arange(len(bent)), [0.0]
     for parts in zip(*bent, strict=True):
         found = joined(list(parts))

@@ -45,12 +45,7 @@ class OpenWaterProblem:
         return replace(self, tank=self.tank.of_order(order))
 
     def shared_band(self, lowest: float, highest: float) -> tuple[float, float]:
-        """Return the range of frequencies of an analysis, rad/s, widened to those of others that hardly cost more.
-
-        Args:
-            lowest: of the analysis.
-            highest: of the analysis.
-        """
+        """Return the range of frequencies of an analysis, rad/s, widened to those of others that hardly cost more."""
         near = [band for band in self.bands if band[0] >= _LOWER * lowest and band[1] <= _HIGHER * highest]
         lows, highs = zip((lowest, highest), *near, strict=True)
         return min(lows), max(highs)

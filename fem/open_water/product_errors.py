@@ -25,16 +25,7 @@ from hydroelastic.fem.spectral_error import missing_energy
 
 
 def product_errors(model: OpenModel, duals: np.ndarray, potentials: np.ndarray) -> np.ndarray:
-    """Estimate |Re A_λ(z − z_h, ψ − ψ_h)| of pairs of z and ψ, summed over the cells (collective).
-
-    Args:
-        model: the problem.
-        duals: complex z on own free unknowns, shape (pairs, free unknowns).
-        potentials: ψ, of the same shape.
-
-    Returns:
-        Dimensionless, shape (pairs,).
-    """
+    """Estimate |Re A_λ(z − z_h, ψ − ψ_h)| of pairs of z and ψ, summed over the cells (collective)."""
     layer = model.in_absorbing_layer
     cells = _cells(model, duals, potentials, lambda product: np.where(layer, np.abs(product), np.abs(product.real)))
     away, tips = model.summed_over_cells(cells)
@@ -43,16 +34,7 @@ def product_errors(model: OpenModel, duals: np.ndarray, potentials: np.ndarray) 
 
 
 def square_errors(model: OpenModel, potentials: np.ndarray, layer_weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Estimate |A_λ(ψ − ψ_h, ψ − ψ_h)| in cells away from tips and at tips (collective).
-
-    Args:
-        model: the problem.
-        potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
-        layer_weight: weight of cells in the absorbing layer for each ψ, shape (potentials,).
-
-    Returns:
-        Both, dimensionless, each of shape (potentials,).
-    """
+    """Estimate |A_λ(ψ − ψ_h, ψ − ψ_h)| in cells away from tips and at tips (collective)."""
     cells = _cells(model, potentials, potentials, np.abs)
     return model.summed_over_cells(cells * np.where(model.in_absorbing_layer, layer_weight[:, None], 1.0))
 

@@ -58,12 +58,7 @@ class RadiationSolution:
 
 
 def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
-    """Solve for added mass, damping and excitation to the tolerance of the problem (collective).
-
-    Args:
-        problem: the open water.
-        request: frequencies and shapes.
-    """
+    """Solve for added mass, damping and excitation to the tolerance of the problem (collective)."""
     omegas = np.array([omega for omega in request.omega if isfinite(omega) and omega > 0.0])
     shapes = reported_shapes(open_basin(problem.tank, 0.0).tank, request.elastic_modes)
     attempt = _swept(problem, omegas, shapes) if len(omegas) else None
@@ -81,8 +76,6 @@ def reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sweep:
-    """A sweep at one resolution."""
-
     model: OpenModel
     swept: Swept[OpenFrequency]
     errors: np.ndarray
@@ -262,7 +255,6 @@ def _row(omega: float, found: OpenFrequency, error: float, flux_errors: np.ndarr
 
 
 def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -> _Row:
-    """Return the row of a limit in which waves exert no force."""
     nothing = np.zeros((waves, len(DIRECTIONS), len(added_mass)), dtype=complex)
     return _Row(
         omega=omega,

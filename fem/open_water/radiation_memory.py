@@ -167,15 +167,7 @@ class _Found:
 
 
 def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int, earliest: float = inf) -> WaterMemory:
-    """Return the memory of the water, to the tolerance of the problem (collective).
-
-    Args:
-        problem: the open water.
-        latest: the last time at which it is wanted, s.
-        elastic_modes: number of elastic shapes of each beam.
-        earliest: the first time at which K itself must keep the tolerance, s; infinite where only motions are wanted,
-            to which waves far shorter than the bodies do not matter.
-    """
+    """Return the memory of the water, to the tolerance of the problem (collective)."""
     long = open_basin(problem.tank, 0.0)
     shapes = reported_shapes(long.tank, elastic_modes)
     matrix, limit_error = infinite_frequency_added_mass(problem, shapes)
@@ -373,12 +365,6 @@ def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int
     """Return the range of frequencies that the bodies need.
 
     The highest frequency is that of waves as short as the bodies, or as the shortest shape of a beam.
-
-    Args:
-        water: open water in SI units.
-        tolerance: largest relative error that is accepted.
-        latest: the last time at which the memory is wanted, s.
-        elastic_modes: number of elastic shapes of each beam.
     """
     narrowest = min(_narrowest(body, elastic_modes, is_revolved=water.geometry.is_revolved) for body in water.bodies)
     fastest = sqrt(pi * water.gravity / narrowest)

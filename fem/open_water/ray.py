@@ -133,12 +133,7 @@ class RayIntegral:
         self._causes: list[FrequencyErrors] = []
 
     def followed(self, times: np.ndarray, *, has_low_series: bool) -> RayMotion:
-        """Return the motion at some times (collective).
-
-        Args:
-            times: dimensionless times, not negative, shape (n,).
-            has_low_series: whether H has the series of `low_frequency` below the mesh.
-        """
+        """Return the motion at some times (collective)."""
         low, high = self._band
         meshed = np.geomspace(low, high, _ON_RAY) * self._ray.turned
         # The end of the ray is on the arc already.
@@ -287,16 +282,7 @@ def hydrodynamics_along_ray(
     *,
     has_low_series: bool,
 ) -> tuple[np.ndarray, LowFrequencySeries | None]:
-    """Return H at |ω| of shape (n,) along a ray, shape (n, m, m), and its low-frequency series (collective).
-
-    Args:
-        solver: solves on a reduced basis, dimensionless.
-        ray: the ray.
-        radii: |ω|, ascending.
-        band: lowest and highest frequency of the mesh; beyond these H is that of the series.
-        fast: the high-frequency series, if any |ω| is above the band.
-        has_low_series: whether H has a low-frequency series.
-    """
+    """Return H at |ω| of shape (n,) along a ray, shape (n, m, m), and its low-frequency series (collective)."""
     low, high = band
     omegas = radii * ray.turned
     slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if has_low_series else None

@@ -57,7 +57,6 @@ class ReducedPencil:
     """
 
     def __init__(self, pencil: OpenPencil) -> None:
-        """Start with an empty basis."""
         self.size = 0
         self._pencil = pencil
         # V, AV and MV, with room for more vectors, and on the surfaces of bodies V, D⁻¹AV̄ and D⁻¹MV̄.
@@ -84,11 +83,6 @@ class ReducedPencil:
 
         Aψ is computed as λMψ + f: in elongated cells A is large, and the product with a nearly constant ψ would be lost
         in rounding.
-
-        Args:
-            eigenvalue: λ.
-            potentials: ψ, complex, shape (solutions, own free unknowns).
-            loads: f, complex, of the same shape.
         """
         masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
         vectors, mixing, shift = self._orthonormal(potentials)
@@ -166,12 +160,7 @@ class ReducedPencil:
         return np.array([self._norm(left) for left in rest])
 
     def load_products(self, loads: np.ndarray, known: LoadProducts | None = None) -> LoadProducts:
-        """Return products of loads with each other and with the basis (collective).
-
-        Args:
-            loads: on `OpenPencil.wet`, shape (loads, wet).
-            known: those of other loads with the same basis, which come first.
-        """
+        """Return products of loads with each other and with the basis (collective)."""
         products, size = self._pencil.products, self.size
         by_basis = products(self._at_bodies.reshape(3 * size, loads.shape[1]), loads).reshape(3, size, len(loads))
         if known is not None:
@@ -185,12 +174,6 @@ class ReducedPencil:
         """Return `misfits` over |fᵀψ|^{1/2} from products alone, shape (combinations,); below 1e-8 they are rounding.
 
         With (A − λM)⁻¹ instead of D⁻¹ the square would be the relative error of fᵀψ.
-
-        Args:
-            eigenvalue: λ.
-            products: of some loads.
-            parts: combinations of these, shape (combinations, loads).
-            coordinates: y of each combination, shape (combinations, basis).
         """
         # r = Pf − y(A − λM): −1 and λ are the factors of A and M.
         factors = np.stack([-coordinates, eigenvalue * coordinates], axis=1)

@@ -33,12 +33,7 @@ class Region:
         return above and self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
 
     def boundary(self, places: np.ndarray) -> np.ndarray:
-        """Return ω of points on the boundary, rad/s.
-
-        Args:
-            places: shape (points,), from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
-                above the real axis.
-        """
+        """Return ω of points on the boundary, rad/s."""
         corners = [
             self.lowest * (1.0 - 1j * self.damping),
             self.highest * (1.0 - 1j * self.damping),

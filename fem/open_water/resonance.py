@@ -96,23 +96,13 @@ class ResonanceSolution:
 
 @dataclass(frozen=True, kw_only=True)
 class _Found:
-    """Resonances at one resolution."""
-
     model: OpenModel
     pairs: list[Eigenpair]
     tried: int
 
 
 def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
-    """Find resonances to the tolerance of the problem, and count them independently (collective).
-
-    Args:
-        problem: the open water.
-        request: number and region of the resonances.
-
-    Raises:
-        EigenSolverError: if SLEPc fails.
-    """
+    """Find resonances to the tolerance of the problem, and count them independently (collective)."""
     watch = problem.watch
     expected, beyond = expected_frequencies(problem, request)
     if not expected:
@@ -290,19 +280,7 @@ def _outgoing_search(model: OpenModel) -> ResonanceSearch:
 def rough_resonances(
     problem: OpenWaterProblem, expected: list[float], region: Region
 ) -> tuple[OpenModel, list[complex]]:
-    """Find approximate resonances of a region in which bodies move (collective).
-
-    Args:
-        problem: the open water.
-        expected: frequencies near which resonances are expected, rad/s.
-        region: region of ω.
-
-    Returns:
-        The model, and ω by ascending |ω|, rad/s.
-
-    Raises:
-        EigenSolverError: if SLEPc fails.
-    """
+    """Find approximate resonances of a region in which bodies move (collective)."""
     rough, band = problem.rough(), Band(lowest=region.lowest, highest=region.highest)
     resolution = first_resolution(rough.tank, rough.tolerance, band)
     # Motions without restoring force are not among the expected ones.
@@ -319,15 +297,7 @@ def rough_resonances(
 def _search(
     model: OpenModel, targets: list[complex], region: Region, still: float, others: list[complex]
 ) -> list[complex]:
-    """ω of the resonances in a region in which bodies move, rad/s, but for some others (collective).
-
-    Args:
-        model: the problem.
-        targets: frequencies near which they are sought, rad/s.
-        region: the region.
-        still: largest |dλ/dα|/|λ|.
-        others: known ones, rad/s.
-    """
+    """ω of the resonances in a region in which bodies move, rad/s, but for some others (collective)."""
     unit = model.basin.units.frequency
     search = _outgoing_search(model)
     found: list[complex] = []
@@ -353,17 +323,7 @@ def _nearest(search: ResonanceSearch, target: complex) -> Iterator[Eigenpair]:
 def _damped_resonances(
     problem: OpenWaterProblem, resolution: Resolution, region: Region, known: list[complex]
 ) -> tuple[DampedSolver, list[complex]]:
-    """Find approximate resonances of a region that extends far below the real axis (collective).
-
-    Args:
-        problem: open water of infinitely deep liquids.
-        resolution: resolution with the numbers of dry modes.
-        region: region of ω.
-        known: resonances near the real axis, rad/s.
-
-    Returns:
-        The solver, and ω in rad/s by ascending |ω|.
-    """
+    """Find approximate resonances of a region that extends far below the real axis (collective)."""
     rough = problem.rough()
     band = Band(lowest=region.lowest, highest=region.highest * sqrt(1.0 + region.damping**2))
     resolution = replace(first_resolution(rough.tank, rough.tolerance, band), shapes=resolution.shapes)
@@ -379,7 +339,6 @@ def _damped_resonances(
 
 
 def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> Region:
-    """Return the region of the reported resonances."""
     if request.below is not None or len(found.pairs) < request.count:
         return region
     last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency

@@ -85,16 +85,7 @@ class ResonanceSearch:
         return bool(self._damping.any())
 
     def near(self, target: complex, count: int, tolerance: float = 1e-9) -> list[Eigenpair]:
-        """Return the eigenpairs nearest to a target, with the damping of its frequency (collective).
-
-        Args:
-            target: σ.
-            count: number of eigenvalues, with those of the continuous spectrum.
-            tolerance: relative residual of the inverted problem.
-
-        Raises:
-            EigenSolverError: if SLEPc stops before enough pairs have converged.
-        """
+        """Return the eigenpairs nearest to a target, with the damping of its frequency (collective)."""
         restoring = self._stiffness - 1j * np.sqrt(target) * self._damping
         operator = _InvertedOperator(self._pencil, self._solver, self._loads, restoring, self._mass, target)
         solver = SLEPc.EPS().create(self._pencil.comm)
@@ -126,12 +117,6 @@ class ResonanceSearch:
         (collective).
 
         Of D(λ) = K − iωB − λ(M_b + H(λ)), with dH/dλ = ΨᵀMΨ and Ψ = (A − λM)⁻¹F, the step δ solves (D + δD') a = 0.
-
-        Args:
-            eigenvalue: approximate λ of a resonance in which bodies move.
-
-        Raises:
-            EigenSolverError: if it does not converge.
         """
         products, before = self._pencil.products, inf
         for _ in range(_MOST_STEPS):

@@ -53,8 +53,6 @@ class ResponseSolution:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sweep:
-    """The responses at all frequencies at one resolution."""
-
     solver: OpenSolver
     swept: Swept[OpenResponse]
     table: ResponseTable
@@ -64,13 +62,7 @@ class _Sweep:
 def solve_response(
     problem: OpenWaterProblem, request: ResponseRequest, like: tuple[HullPressure, ...] = ()
 ) -> ResponseSolution:
-    """Solve for the motion in waves to the tolerance of the problem (collective).
-
-    Args:
-        problem: the open water.
-        request: frequencies and direction of the incident waves.
-        like: pressures along all hulls at whose points those of this azimuthal order are wanted.
-    """
+    """Solve for the motion in waves to the tolerance of the problem (collective)."""
     omegas = np.array(request.omega)
     low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
     band = Band(lowest=low, highest=high)
@@ -161,15 +153,7 @@ def _peak(omegas: np.ndarray, sizes: np.ndarray) -> float:
 def _with_largest(
     request: ResponseRequest, model: OpenModel, table: ResponseTable, curves: Curves | None, meshed: np.ndarray
 ) -> ResponseTable:
-    """Add the largest motions and reflection.
-
-    Args:
-        request: the analysis.
-        model: the field model.
-        table: at the frequencies that were requested.
-        curves: between them, if there are any.
-        meshed: relative errors of the table without those of the reduced basis.
-    """
+    """Add the largest motions and reflection."""
     found, errors = table, table.relative_error
     if curves is not None:
         found = _of_basis(request, model, curves.omegas, curves.responses, curves.reduced)

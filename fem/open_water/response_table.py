@@ -140,17 +140,7 @@ def plate_deflection(
     reduced: np.ndarray,
     of_loads: np.ndarray,
 ) -> PlateDeflection:
-    """Return what acts along a beam in SI units, with its errors.
-
-    Args:
-        model: the problem.
-        index: of the beam among the bodies.
-        x: distances from its left end, in units of the basin, shape (p,).
-        solutions: the responses.
-        found: what acts along it in these.
-        reduced: their relative errors by the reduced basis, shape (n,).
-        of_loads: see `load_errors`.
-    """
+    """Return what acts along a beam in SI units, with its errors."""
     units, start = model.basin.units, model.basin.tank.piece_of(index).start
     factors = np.array([one.per_elevation(RIGHTWARD) for one in solutions])
     weight = units.density * units.gravity * units.length

@@ -250,9 +250,6 @@ class ResponseTable:
 
         Loads below a small part of ρgl and ρgl², those of a wave of unit elevation on a beam of length l that does not
         follow it, count as none.
-
-        Args:
-            weight: ρg of the liquid, N/m³.
         """
         found = [0.0]
         for plate in self.plates:

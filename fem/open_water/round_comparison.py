@@ -21,12 +21,7 @@ _ALIKE = 1e-9
 
 def round_comparisons(tank: Tank, solution: OpenWaterSolution) -> tuple[Comparison, ...]:
     """Compare the forces on a lone body of revolution in one liquid, and motions of a plate, with closed forms and
-    estimates.
-
-    Args:
-        tank: the sea in SI units.
-        solution: the field solution.
-    """
+    estimates."""
     if not tank.geometry.is_revolved or len(tank.bodies) > 1 or len(tank.layers) > 1:
         return ()
     rows = [row for table in solution.radiation for row in _rows(tank, table)]
@@ -71,7 +66,6 @@ def _rows(tank: Tank, table: RadiationTable) -> Iterator[Comparison]:
 
 
 def _strips(tank: Tank, body: RigidFloat, table: RadiationTable, slow: int, weight: float) -> Iterator[Comparison]:
-    """Surge in the longest waves asked for by strips."""
     layer, surge = tank.layers[0], table.dofs.index("surge")
     k, omega = float(table.wavenumbers[slow, 0]), float(table.omega[slow])
     force = strip_force(body.hull.below, k, layer.depth, weight)

@@ -42,18 +42,7 @@ def deflections_of_order(
     of_loads: dict[int, np.ndarray],
     radii_of: Callable[[int], Floats],
 ) -> Iterator[RoundDeflection]:
-    """Yield the deflection of each round plate in the waves of one order (collective).
-
-    Args:
-        model: the problem of the order.
-        responses: to waves, shape (frequencies,).
-        moved: the motions and the linear damping in place of drag of each, see `bent`.
-        towards: direction of the waves.
-        reduced: relative errors of the responses by the reduced basis, shape (frequencies,).
-        of_loads: errors of moment and shear force of each plate by its index, see `plate_load_errors.py`, shape
-            (frequencies, 2, waves).
-        radii_of: returns the ascending radii of a plate by its index among the bodies, m.
-    """
+    """Yield the deflection of each round plate in the waves of one order (collective)."""
     factors = np.array([one.per_elevation(towards) for one in responses])[..., None]
     length = model.basin.units.length
     for index, modes in model.plate_modes.items():
@@ -90,13 +79,7 @@ def joined(parts: list[RoundDeflection]) -> RoundDeflection:
 
 
 def along_diameter(tank: Tank, found: RoundDeflection, error: Floats) -> PlateDeflection:
-    """Return the deflection of a round plate along the diameter of the waves.
-
-    Args:
-        tank: the sea in SI units.
-        found: the deflections of all orders.
-        error: of the deflection relative to the larger of it and the wave, shape (frequencies,).
-    """
+    """Return the deflection of a round plate along the diameter of the waves."""
     plate = plate_of(tank.bodies[found.body])
     deflection, along = found.derivatives[0], found.derivatives[2]
     orders = np.arange(deflection.shape[-2])
@@ -137,14 +120,7 @@ def bent_by(plate: RoundPlate, radii: Floats, derivatives: np.ndarray, orders: n
 
 
 def left_out(orders: np.ndarray) -> Floats:
-    """Return what the orders left out add to a sum over the orders anywhere, if they go on as the last two.
-
-    Args:
-        orders: shape (frequencies, waves, orders, points).
-
-    Returns:
-        Shape (frequencies, waves).
-    """
+    """Return what the orders left out add to a sum over the orders anywhere, if they go on as the last two."""
     sizes = np.abs(orders).max(axis=-1)
     before, last = sizes[..., -2], sizes[..., -1]
     falls = last < _SLOWEST * before

@@ -98,23 +98,7 @@ class OpenWaterSolution:
 def solve_open_water(
     problem: OpenWaterProblem, requests: Sequence[Request], report: Report = lambda _message: None
 ) -> OpenWaterSolution:
-    """Solve all analyses of open water (collective).
-
-    Args:
-        problem: open water, with the tolerance.
-        requests: the analyses.
-        report: receives messages on the progress.
-
-    Returns:
-        The tables, with `OpenWaterSolution.reasons` where they do not keep the tolerance.
-
-    Raises:
-        MeshError: if no mesh can be made.
-        EigenSolverError: if resonances cannot be found.
-        UnstableFloatError: if a float that is released would capsize.
-        DriftingFloatError: if a float that is released would drift away.
-        UnsolvedMotionError: if a motion in waves grows without bound.
-    """
+    """Solve all analyses of open water (collective)."""
     tables: list[_Table] = []
     size = {"cells": 0, "dofs": 0, "degree": 0}
     reasons: list[str] = []

@@ -71,11 +71,7 @@ class OpenSolver:
         return self._reduced.size
 
     def sample(self, rows: np.ndarray) -> None:
-        """Let ψ on the basis be as accurate as forces are at some places, by the dual problem of each.
-
-        Args:
-            rows: what ψ there takes of the own free unknowns, shape (places, own free unknowns).
-        """
+        """Let ψ on the basis be as accurate as forces are at some places, by the dual problem of each."""
         self._sampled = rows
         self._solutions.clear()
 
@@ -176,12 +172,7 @@ class OpenSolver:
         ), float(residual)
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:
-        """Return the response of free bodies by a factorization; the scattered waves extend the basis (collective).
-
-        Args:
-            omega: ω, rad/s.
-            incident: indices of the incident waves, see `Incidence`.
-        """
+        """Return the response of free bodies by a factorization; the scattered waves extend the basis (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         radiated, diffracted = self._at(omega)
@@ -362,6 +353,5 @@ def _moved(omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.nda
 
 
 def _speeds(paths: np.ndarray, omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.ndarray) -> np.ndarray:
-    """Amplitudes of the velocities along paths, shape (paths,)."""
     speeds: np.ndarray = omega * np.abs(paths @ _moved(omega, dynamic, force, damping))
     return speeds

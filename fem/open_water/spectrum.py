@@ -94,11 +94,6 @@ def solve_spectrum(
     The orders of solids of revolution in which they move, and those that scatter waves for the drift force, have the
     same frequencies in the end. Loads of round plates are sums over as many orders as they need, on meshes whose errors
     in the first orders are a part of the tolerance; should the others add too much, all are solved anew.
-
-    Args:
-        problem: the open water.
-        request: spectrum, duration, points.
-        tolerance: of the statistics; ``None`` for that of the problem.
     """
     tolerance = tolerance or problem.tolerance
     attempts = [_curves(problem.of_order(order), request) for order in problem.tank.orders]

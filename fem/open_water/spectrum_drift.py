@@ -52,16 +52,7 @@ def mean_drift(
     damping: np.ndarray,
     further: Callable[[int], Curves],
 ) -> MeanDrift:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω (collective).
-
-    Args:
-        problem: the open water.
-        request: the request.
-        curves: the transfer functions of the orders that move.
-        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
-        damping: in place of drag, shape (unknowns, unknowns).
-        further: gives the waves of orders that do not move.
-    """
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω (collective)."""
     omegas, towards = curves[0].omegas, direction_of(request.waves_from)
     starts = np.cumsum([0, *(len(one.solver.model.mass) for one in curves)])
     # Motions per c of the incident wave.
@@ -158,13 +149,7 @@ def _drift_of_orders(
 
 
 def mean_power(request: SpectrumRequest, curves: list[Curves], motions: np.ndarray) -> float:
-    """Mean power that the linear damping of attachments takes, ∫ ω² aᴴBa S dω, W/m or of solids W.
-
-    Args:
-        request: the request.
-        curves: the transfer functions of the orders that move.
-        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
-    """
+    """Mean power that the linear damping of attachments takes, ∫ ω² aᴴBa S dω, W/m or of solids W."""
     models, omegas = [one.solver.model for one in curves], curves[0].omegas
     damping = block_diag(*(model.outside.damping for model in models))
     units = models[0].basin.units

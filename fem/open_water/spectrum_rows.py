@@ -109,15 +109,7 @@ def estimated_about_peaks(curves: Curves) -> list[int]:
 def along_plates(
     tank: Tank, request: SpectrumRequest, curves: list[Curves], motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateDeflection]:
-    """Yield what acts along each beam, and along the diameter of each round plate, its points among the positions.
-
-    Args:
-        tank: the open water in SI units.
-        request: the request.
-        curves: the transfer functions of the orders that move.
-        motions: of all orders per elevation, shape (n, unknowns).
-        drag: linear damping in place of each drag.
-    """
+    """Yield what acts along each beam, and along the diameter of each round plate, its points among the positions."""
 
     def radii(index: int) -> Floats:
         points = [
@@ -207,14 +199,7 @@ def _place(plate: PlateDeflection, point: tuple[float, float]) -> int:
 def statistics_along(
     request: SpectrumRequest, omegas: Floats, plate: PlateDeflection, thickness: float | None
 ) -> PlateStatistics:
-    """Return the statistics of deflection, bending moment and shear force along a beam or a diameter.
-
-    Args:
-        request: the request.
-        omegas: frequencies, rad/s.
-        plate: what acts along it at these.
-        thickness: of the plate, m; ``None`` for no stresses.
-    """
+    """Return the statistics of deflection, bending moment and shear force along a beam or a diameter."""
     told, parts = {}, np.zeros((len(CAUSES), len(_LOADS)))
     for place, name in enumerate(_LOADS):
         transfer = getattr(plate, name)[:, 0]

@@ -31,7 +31,6 @@ def reach_of(water: Tank, points: tuple[AirGapPoint, ...]) -> tuple[float, float
 
 
 def _places(water: Tank, points: tuple[AirGapPoint, ...]) -> np.ndarray:
-    """x of a section, or the radius."""
     x, across = np.array([[one.at[0], one.across] for one in points]).reshape(-1, 2).T
     return np.hypot(x, across) if water.geometry.is_revolved else x
 
@@ -53,14 +52,7 @@ def scattered_elevations(
     curves: Curves, motions: np.ndarray, request: SpectrumRequest, order: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the elevation of the scattered and radiated waves of one order at the points of air gaps, per unit
-    incident elevation, and its error, each of shape (n, points) (collective).
-
-    Args:
-        curves: responses of this order.
-        motions: per incident elevation, shape (n, body unknowns).
-        request: the points.
-        order: n; 0 of a section.
-    """
+    incident elevation, and its error, each of shape (n, points) (collective)."""
     towards = direction_of(request.waves_from)
     rows = surface_rows(curves.solver.model, request.air_gaps)
     found = np.array(
@@ -72,14 +64,7 @@ def scattered_elevations(
 
 
 def sampled_elevations(response: OpenResponse, motions: np.ndarray, rows: np.ndarray, towards: int) -> np.ndarray:
-    """Return λψ per unit incident elevation at places of the free surface, shape (places,) (collective).
-
-    Args:
-        response: to one incident wave.
-        motions: per incident elevation, shape (body unknowns,).
-        rows: see `surface_rows`.
-        towards: direction of the wave.
-    """
+    """Return λψ per unit incident elevation at places of the free surface, shape (places,) (collective)."""
     factor = response.per_elevation(towards)[0]
     psi = response.scattered_by(motions[None] / factor)
     found: np.ndarray = response.squared.real * factor * response.model.pencil.products(rows, psi)[:, 0]
@@ -88,12 +73,7 @@ def sampled_elevations(response: OpenResponse, motions: np.ndarray, rows: np.nda
 
 def surface_rows(model: OpenModel, points: tuple[AirGapPoint, ...]) -> np.ndarray:
     """Return what ψ at places of the free surface takes of the own free unknowns, and below that its part in the
-    highest polynomial on the facet, shape (2 × places, free unknowns) (collective).
-
-    Args:
-        model: the problem.
-        points: above these places.
-    """
+    highest polynomial on the facet, shape (2 × places, free unknowns) (collective)."""
     places = (_places(model.basin.tank, points) - model.basin.origin) / model.basin.units.length
     liquid, comm = model.pencil.liquid, model.pencil.comm
     rows = np.zeros((2, len(places), len(liquid.layer_of)))

@@ -69,13 +69,7 @@ class Swept(Generic[Solution]):
 
 
 def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> Swept[Solution]:
-    """Solve at all frequencies to a relative tolerance.
-
-    Args:
-        problem: functions that solve and compare.
-        omegas: different frequencies in any order, real or along a line in the complex plane, shape (frequencies,).
-        tolerance: largest relative error that is accepted of what `Problem.difference` compares.
-    """
+    """Solve at all frequencies to a relative tolerance."""
 
     def again(others: np.ndarray) -> Swept[Solution]:
         return sweep(problem, others, tolerance)

@@ -35,15 +35,7 @@ class Comparison:
 
 
 def thin_float_comparisons(tank: Tank, solution: OpenWaterSolution) -> tuple[tuple[Comparison, ...], str]:
-    """Compare the thin-float theory with the heave of a single float.
-
-    Args:
-        tank: open water, in SI units.
-        solution: the field solution.
-
-    Returns:
-        The comparisons, and what the theory neglects or why it has no value; an empty tuple where it does not apply.
-    """
+    """Compare the thin-float theory with the heave of a single float."""
     profile, layers = lone_profile(tank), two_layers(tank)
     if profile is None:
         return (), ""

@@ -25,13 +25,7 @@ _Curve: TypeAlias = tuple[str, Floats, Floats, float]
 def unresolved_peaks(
     table: ResponseTable, resonances: Complexes, between: Callable[[Floats], ResponseTable]
 ) -> tuple[UnresolvedPeak, ...]:
-    """Return the largest of the peaks between each two frequencies, by ascending frequency.
-
-    Args:
-        table: the response at the frequencies requested.
-        resonances: ω of bodies and liquid together, rad/s; those that no wave excites have no peak.
-        between: returns the response at other frequencies, shape (frequencies,), rad/s.
-    """
+    """Return the largest of the peaks between each two frequencies, by ascending frequency."""
     omegas = np.sort(table.omega)
     probed = np.array(list(_narrow(omegas, resonances)))
     if not probed.size:

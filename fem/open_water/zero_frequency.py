@@ -30,10 +30,6 @@ def zero_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]
 
     Over a bed heave, which displaces a volume, grows without limit; its entries are infinite. Bending modes displace
     none: they are orthogonal to heave.
-
-    Args:
-        problem: the open water, of one order.
-        shapes: number of dry modes of each plate, 0 for floats.
     """
     basin = open_basin(problem.tank, 0.0)
     dofs = motion_scale(basin, whole_bodies(basin.tank, shapes)).dofs

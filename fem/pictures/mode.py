@@ -33,7 +33,6 @@ class SurfaceCurve:
     level: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse arrays that do not belong together."""
         if self.x.ndim != 1 or self.x.shape != self.displacement.shape or len(self.x) < 2:
             raise ValueError(
                 f"a surface curve needs x and displacement of one shape (points ≥ 2,), "
@@ -65,7 +64,6 @@ class FloatSection:
     slit: Array | None = None
 
     def __post_init__(self) -> None:
-        """Refuse arrays that do not belong together."""
         if self.contour.shape != self.displacement.shape or self.contour.shape[1:] != (2,) or len(self.contour) < 3:
             raise ValueError(
                 f"a float needs contour and displacement of one shape (points ≥ 3, 2), "
@@ -133,7 +131,6 @@ class ModePicture:
     amplitude: str = UNIT_MASS
 
     def __post_init__(self) -> None:
-        """Refuse arrays that do not belong together."""
         count = len(self.points)
         expected = {"points": (count, 2), "potential": (count,), "displacement": (count, 2)}
         wrong = [f"{name} {getattr(self, name).shape}" for name, shape in expected.items()

@@ -124,14 +124,7 @@ def symmetries(tank: LevelTank) -> tuple[ClassParity, ...]:
 
 
 def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report = lambda _message: None) -> BoxSolution:
-    """Solve a dimensionless box with rectangular plates, alike on each process.
-
-    Args:
-        tank: the box, with waves or a lid beside the plates.
-        tolerance: largest relative error of the frequencies that is accepted.
-        count: number of modes, from the lowest.
-        report: receives messages on the progress.
-    """
+    """Solve a dimensionless box with rectangular plates, alike on each process."""
     attempts, model = numbered(1), BoxModel(tank=tank)
 
     def solve(resolution: BoxResolution) -> BoxSolution:
@@ -200,14 +193,7 @@ def _bodies(tank: LevelTank, resolution: BoxResolution, parity: ClassParity) -> 
 def box_problem(
     tank: LevelTank, resolution: BoxResolution, parity: ClassParity, *, dense: bool = False
 ) -> tuple[CoupledPencil[BoxLiquid] | None, tuple[RectangleBody, ...]]:
-    """Return the problem of a symmetry class, ``None`` where nothing moves in it, and the plates in its shapes.
-
-    Args:
-        tank: the dimensionless box.
-        resolution: of it.
-        parity: the class.
-        dense: see `box_pencil`.
-    """
+    """Return the problem of a symmetry class, ``None`` where nothing moves in it, and the plates in its shapes."""
     bodies = _bodies(tank, resolution, parity)
     liquid = _liquid(tank, resolution, parity)
     return box_pencil(liquid, bodies, waves=tank.top == "free", dense=dense), bodies

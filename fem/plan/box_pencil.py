@@ -105,7 +105,6 @@ class BoxStiffness:
     """A as a shell matrix: A = Σ (M u_i v_j) (M u_i v_j)ᵀ / f, 0 of the constant; with f over the number of images."""
 
     def __init__(self, liquid: BoxLiquid) -> None:
-        """Prepare the moments of the standing waves."""
         self._liquid = liquid
         self._moments = tuple(space.mass @ space.waves[1] for space in liquid.spaces)
         with np.errstate(divide="ignore"):
@@ -127,17 +126,7 @@ class BoxStiffness:
 def box_pencil(
     liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: bool, dense: bool = False
 ) -> CoupledPencil[BoxLiquid] | None:
-    """Assemble the coupled problem of a symmetry class, alike on each process.
-
-    Args:
-        liquid: the unknowns of ψ.
-        plates: the plates with their shapes of the class.
-        waves: whether the water beside the plates moves under gravity.
-        dense: whether A⁺ of all loads is computed, with which the inertia can be had.
-
-    Returns:
-        The problem; ``None`` where nothing moves in the class.
-    """
+    """Assemble the coupled problem of a symmetry class, alike on each process."""
     moving = tuple(plate for plate in plates if plate.body.size)
     water = _water(liquid, plates) if waves else None
     if not moving and water is None:
@@ -165,13 +154,7 @@ def box_pencil(
 
 
 def plate_loads(liquid: BoxLiquid, plate: RectangleBody, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return ∫φ q over a plate and its images for functions φ, shape (functions, N).
-
-    Args:
-        liquid: the unknowns of ψ.
-        plate: the plate.
-        coefficients: of φ in the plate's polynomials, shape (functions, m, n).
-    """
+    """Return ∫φ q over a plate and its images for functions φ, shape (functions, N)."""
     along, across = (
         space.moments(start, min(end, space.nodes[-1]), middle, side, count)
         for space, (start, end), middle, side, count in zip(

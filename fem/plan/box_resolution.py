@@ -71,14 +71,7 @@ class BoxResolution:
 
 
 def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ.
-
-    Args:
-        tank: the tank.
-        tolerance: largest relative error that is accepted.
-        eigenvalue: λ.
-        released: whether ψ = 0 on the water, else it has waves.
-    """
+    """Return the resolution for the modes of a dimensionless tank up to some λ."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
@@ -110,14 +103,7 @@ def plate_wavenumber(tank: LevelTank, plate: Plate, eigenvalue: float) -> float:
 
 @lru_cache(maxsize=16)
 def axis_space(resolution: BoxResolution, length: float, edges: tuple[float, ...], parity: int | None) -> IntervalSpace:
-    """Return the space along one axis, of half of it where it has a symmetry.
-
-    Args:
-        resolution: of the box.
-        length: of the axis.
-        edges: places of the edges of plates.
-        parity: 0 even, 1 odd about the middle, ``None`` without a symmetry.
-    """
+    """Return the space along one axis, of half of it where it has a symmetry."""
     end = length if parity is None else 0.5 * length
     places = tuple(place for place in edges if place <= end)
     nodes: NDArray[np.float64] = graded_nodes(0.0, end, places, largest=resolution.largest, layers=resolution.layers)
@@ -133,16 +119,7 @@ def graded_nodes(
     layers: int,
     ratio: float = 0.2,
 ) -> NDArray[np.float64]:
-    """Return nodes of an interval that are graded geometrically towards edges inside it.
-
-    Args:
-        start: its start.
-        end: its end; it may be one of the edges, and the layers are then on one side.
-        edges: places of the edges.
-        largest: size of the largest cell.
-        layers: number of layers beside each edge, on either side; 0 leaves the edge as a node.
-        ratio: ratio of the distances of successive nodes from an edge.
-    """
+    """Return nodes of an interval that are graded geometrically towards edges inside it."""
     inside = sorted({place for place in edges if start < place < end} | {start, end})
     graded = set(edges)
     nodes = [start]

@@ -129,15 +129,7 @@ def solve_classes(
     solve: ClassSolver | None = None,
     shares: dict[ClassParity, int] | None = None,
 ) -> ClassModes:
-    """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
-
-    Args:
-        pencils: the problem of each class that has unknowns.
-        count: number of modes; fewer are returned if the model has fewer.
-        tolerance: largest relative error of frequencies that is accepted.
-        solve: finds modes of a class; by default `solve_modes`.
-        shares: about the number of modes of each class; as many of each by default.
-    """
+    """Solve each class for its share of the modes, and for more where the shares are not enough (collective)."""
 
     def solve_class(_parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
         # The error of λ is that of the residual squared.
@@ -187,12 +179,6 @@ def count_is_confirmed(
 
     Ritz values of the coarser space are not below those of the finer: it has no more modes under any limit, and as many
     where the gap is wider than its error. Its matrices give the number by their inertia, without an iteration.
-
-    Args:
-        solution: the modes.
-        coarse: makes the problem of a class in a coarser space, with its matrix A.
-        repeated: whether the problem of the modes itself is asked where the coarser one has fewer: of many modes the
-            gaps are narrower than its error.
     """
     values = solution.eigenvalues
     if len(values) < 2:
@@ -223,13 +209,7 @@ def no_mode_is_beyond(solution: ClassModes) -> bool:
 def merged_errors(
     solution: ClassModes, causes: int, estimate: Callable[[SymmetryClass, list[Mode]], np.ndarray]
 ) -> np.ndarray:
-    """Return the errors of all modes by cause, shape (causes, modes).
-
-    Args:
-        solution: the modes.
-        causes: their number.
-        estimate: gives those of some modes of a class, shape (causes, modes of the class).
-    """
+    """Return the errors of all modes by cause, shape (causes, modes)."""
     errors = np.zeros((causes, len(solution.origins)))
     for number, one in enumerate(solution.classes):
         own = [index for index, (origin, _) in enumerate(solution.origins) if origin == number]

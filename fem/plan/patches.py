@@ -73,7 +73,6 @@ def _box_patches(tank: LevelTank) -> list[Patch]:
 
 
 def _plan_patches(tank: LevelTank) -> list[Patch]:
-    """The water and each plate on straight triangles."""
     wall, plates = plan_regions(tank)
     mesh = plan_mesh(wall, plates, size=lambda _: 1.0 / _ALONG, layers=1, thickness=0.5 / _ALONG, geometry_degree=2)
     patches = []

@@ -219,18 +219,7 @@ def solve_plan(
     comm: MPI.Comm | None = None,
     report: Report = lambda _message: None,
 ) -> PlanSolution:
-    """Solve a dimensionless tank on its plan (collective).
-
-    Args:
-        tank: the tank, with waves or a lid beside the plates.
-        tolerance: largest relative error of the frequencies that is accepted.
-        count: number of modes, from the lowest.
-        comm: the processes over which the poles are distributed; all by default.
-        report: receives messages on the progress.
-
-    Raises:
-        MeshError: if the plan cannot be meshed.
-    """
+    """Solve a dimensionless tank on its plan (collective)."""
     attempts, model = numbered(1), PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
@@ -273,14 +262,7 @@ def solve_plan(
 
 
 def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ.
-
-    Args:
-        tank: the tank.
-        tolerance: largest relative error that is accepted.
-        eigenvalue: λ.
-        released: whether ψ = 0 on the water, else it has waves.
-    """
+    """Return the resolution for the modes of a dimensionless tank up to some λ."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.9 * digits), 5), HIGHEST_DEGREE - 1)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
@@ -340,11 +322,7 @@ def mirrored_classes(mirrors: Mirrors) -> tuple[ClassParity, ...]:
 
 
 def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
-    """Mesh a dimensionless tank's plan up to its mirror planes, and assemble on it.
-
-    Raises:
-        MeshError: if the plan cannot be meshed.
-    """
+    """Mesh a dimensionless tank's plan up to its mirror planes, and assemble on it."""
     wall, plates = plan_regions(tank)
     mirrors = mirrors_of(wall, plates)
     thickness = min(0.5 * resolution.size, tank.depth)

@@ -31,14 +31,6 @@ def liquid_and_pole_errors(
     of which the part of the gradients follows from the decay of each pole's ∇ψ_j with the polynomial degree. The second
     one is ∫(f − f_h)dμ, with the measure μ of the squares of ζ over k². Galerkin's method in ζ and all ψ_j gives a few
     k² and weights, a quadrature over μ that is exact for f_h, and for f, a sum of 1/(k² + d), from below.
-
-    Args:
-        pencil: the problem.
-        modes: some of its modes.
-        depth: H.
-
-    Returns:
-        The part of the gradients and that of the poles, of each mode, shape (modes,).
     """
     operator = pencil.solver
     assert isinstance(operator, PoleOperator)

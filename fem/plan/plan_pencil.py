@@ -91,12 +91,7 @@ class PlanSpace:
         return len(self.kept)
 
     def of_class(self, parity: ClassParity, mirrors: Mirrors) -> PlanSpace:
-        """Return the space of one symmetry: odd functions are zero on the mirror plane.
-
-        Args:
-            parity: even (0) or odd (1) about each of the planes.
-            mirrors: x and y of the planes.
-        """
+        """Return the space of one symmetry: odd functions are zero on the mirror plane."""
         if 1 not in parity:
             return self
         places = self.liquid.space.tabulate_dof_coordinates()
@@ -149,13 +144,7 @@ _ON_MIRROR = 1e-10
 
 
 def plan_space(tank: TankMesh, degree: int, images: int = 1) -> PlanSpace:
-    """Assemble what all problems on a plan share.
-
-    Args:
-        tank: the mesh of the plan, or of a part of it.
-        degree: of ψ.
-        images: number of parts that are alike.
-    """
+    """Assemble what all problems on a plan share."""
     liquid = liquid_space(tank, degree)
     stiffness = laplace_matrix(liquid)
     stiffness.scale(float(images))
@@ -304,13 +293,6 @@ def plan_pencil(
     """Assemble the coupled problem, alike on each process; ``None`` where nothing moves (collective).
 
     The matrix "A" of the pencil is K₂, its part of d₀ = 0: `stacked` gives the problem whose A is a matrix.
-
-    Args:
-        space: the plan.
-        poles: of the depth.
-        plates: the bodies.
-        waves: whether the water beside the plates moves under gravity.
-        comm: the processes over which the poles are distributed; ``None`` where another solver will be given.
     """
     liquid = PlanLiquid(space=space, poles=poles)
     loads, water = _blocks(space, plates, waves=waves)
@@ -378,5 +360,4 @@ def water_unknowns(space: PlanSpace) -> NDArray[np.int64]:
 
 
 def _square(water: sparse.csr_matrix) -> sparse.csr_matrix:
-    """The rows of S on the water itself: those that are not empty."""
     return water[np.flatnonzero(np.diff(water.indptr))].tocsr()

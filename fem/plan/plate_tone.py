@@ -87,15 +87,7 @@ class _Found:
 def class_tones(
     model: ClassModel[R], found: ClassModes, errors: np.ndarray, tolerance: float, *, has_water: bool
 ) -> list[PlateTone]:
-    """Return the first elastic tones of all elastic plates (collective).
-
-    Args:
-        model: the tank's.
-        found: the modes that were asked for.
-        errors: relative errors of their frequencies.
-        tolerance: largest relative error of the frequencies that is accepted.
-        has_water: whether there is water beside the plates, with waves.
-    """
+    """Return the first elastic tones of all elastic plates (collective)."""
     dry = _dry_tones(model.tank, found)
     if has_water:
         for number in sorted({number for number, _, _ in dry}):
@@ -276,10 +268,6 @@ def released_limits(values: Sequence[FloatArray], degree: int) -> tuple[FloatArr
 
     Of ψ ~ r^{1/2} the innermost cell of the thickness h and the degree p lacks an energy in proportion to h/p² (I.
     Babuška and M. Suri, SIAM J. Numer. Anal. 24 (1987) 750).
-
-    Args:
-        values: with three numbers of layers, the last ones in a degree more.
-        degree: of the first ones.
     """
     thicker, thinner, last = values
     ratios = _RATIO, _RATIO * (degree / (degree + 1)) ** 2

@@ -32,14 +32,7 @@ _RIGID_MOTIONS = ("heave", "pitch", "roll")
 
 
 def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParity) -> PlanPlate:
-    """Return a plate of a dimensionless tank in its shapes of one symmetry.
-
-    Args:
-        tank: the tank.
-        index: index of the plate.
-        polynomials: number of polynomials along each direction.
-        parity: even (0) or odd (1) about the mirror planes, in which the middle of the plate lies.
-    """
+    """Return a plate of a dimensionless tank in its shapes of one symmetry."""
     plate = tank.plates[index]
     outline = plate.outline
     if isinstance(outline, Rectangle | Strip):
@@ -56,7 +49,6 @@ def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParit
 
 
 def _rectangle(body_of: Callable[[int], RectangleBody], polynomials: int) -> PlanPlate:
-    """A rectangle in a number of polynomials along each side."""
     found = body_of(polynomials)
 
     def missing(
@@ -116,7 +108,6 @@ class _DiscShapes:
     factors: NDArray[np.float64]
 
     def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the shapes at points, shape (shapes, points)."""
         x, y = points - np.array(self.disc.position)[:, None]
         radius = np.clip(np.hypot(x, y), self.disc.inner_radius, self.disc.radius)
         angle = np.arctan2(y, x)

@@ -14,14 +14,7 @@ MOST_POLYNOMIALS = 40
 def polynomial_counts(
     tank: LevelTank, wavenumbers: Sequence[float], tolerance: float, *, most: int = MOST_POLYNOMIALS
 ) -> tuple[int, ...]:
-    """Return the number of polynomials of each plate: those that resolve its waves, and more for each digit.
-
-    Args:
-        tank: the dimensionless tank.
-        wavenumbers: of the shortest waves in each plate.
-        tolerance: largest relative error that is accepted.
-        most: the largest number.
-    """
+    """Return the number of polynomials of each plate: those that resolve its waves, and more for each digit."""
     digits = -log10(tolerance)
     return tuple(
         min(ceil(1.1 * wavenumber * plate.outline.extent / pi + 1.2 * digits) + 4, most)

@@ -115,15 +115,7 @@ class RectangleBody:
 
 
 def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity: ClassParity) -> RectangleBody:
-    """Return the shapes of a plate in a dimensionless box that take part in a symmetry class.
-
-    Args:
-        plan: the box.
-        index: index of the plate.
-        plate: the plate.
-        polynomials: number of Legendre polynomials along each side.
-        parity: the class; a plate is in the middle of the axes with a symmetry.
-    """
+    """Return the shapes of a plate in a dimensionless box that take part in a symmetry class."""
     outline = rectangle_of(plate.outline)
     edges = [
         _edges(plate, outline.position[axis], outline.size[axis], length)
@@ -149,12 +141,7 @@ def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity
 
 
 def dofs_by_stiffness(stiffness: NDArray[np.float64], rigid: list[Dof]) -> tuple[Dof, ...]:
-    """Return the names of shapes: rigid motions in their order, elastic ones numbered from the softest.
-
-    Args:
-        stiffness: κ of each shape, 0 of rigid motions, shape (shapes,).
-        rigid: names of the rigid motions.
-    """
+    """Return the names of shapes: rigid motions in their order, elastic ones numbered from the softest."""
     left = iter(rigid)
     ranks = np.argsort(np.argsort(stiffness, kind="stable"), kind="stable") - len(rigid) + 1
     return tuple(

@@ -102,12 +102,7 @@ class ReleasedModes:
 
 
 def released_tones(problem: ReleasedProblem, places: Sequence[int]) -> ReleasedModes:
-    """Return the first elastic tones of some plates.
-
-    Args:
-        problem: with ψ = 0 on the water.
-        places: of the plates among its bodies.
-    """
+    """Return the first elastic tones of some plates."""
     bodies = problem.bodies
     firsts = np.cumsum([0, *(body.size for body in bodies)])
     wanted = [int(firsts[place]) + bodies[place].dofs.index(FIRST_ELASTIC) for place in places]
@@ -122,12 +117,6 @@ def released_modes(
     """Return some modes by Davidson's method.
 
     Free rigid motions have no momentum: all vectors are projected so, along those that P gives of them.
-
-    Args:
-        problem: with ψ = 0 on the water.
-        start: shapes of the plates to start with, shape (vectors, shapes).
-        choose: the modes among all in a space, from their 1/λ and the part of the potential energy that each shape has
-            in each, shape (modes, shapes).
     """
     stiffness, mass = problem.stiffness, block_diag(*[body.mass for body in problem.bodies])
     free = np.flatnonzero(stiffness == 0.0)

@@ -27,7 +27,6 @@ class _PoleStiffness:
 
     @cached_property
     def _parts(self) -> tuple[float, FloatArray, FloatArray]:
-        """α, γ and δ."""
         poles = self.poles
         roots = np.sqrt(poles.weights / poles.weights.sum())
         others = np.linalg.svd(roots[None])[2][1:].T

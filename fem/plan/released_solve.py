@@ -76,13 +76,6 @@ def solve_released(
     ψ ~ r^{1/2} at their edges, and the error falls like the thickness of the innermost layer: as of the first elastic
     tone, three resolutions give the limit and its error. The last one has a degree and a quarter of the polynomials of
     the plates more, so that it shows their errors too.
-
-    Args:
-        model: the tank's.
-        parities: its symmetry classes.
-        tolerance: largest relative error of the frequencies that is accepted.
-        count: number of modes, from the lowest.
-        report: receives messages on the progress.
     """
     attempts = numbered(1)
 
@@ -180,7 +173,6 @@ def _lowest(problem: ReleasedProblem, count: int, *, second: bool) -> ReleasedMo
 
 
 def _mode_set(pencil: CoupledPencil, problem: ReleasedProblem, found: ReleasedModes, limits: FloatArray) -> ModeSet:
-    """The modes of a class in the terms of its pencil."""
     completed: Callable[[int], Mode] = partial(_completed, pencil, problem, found, limits)
     return ModeSet(
         eigenvalues=limits,

@@ -38,23 +38,7 @@ def solve_smallest_model(
     tones: bool = True,
     report: Report = lambda _message: None,
 ) -> LevelSolution:
-    """Solve a tank in three dimensions in its smallest model (collective).
-
-    Args:
-        physical: the tank, in SI units.
-        tolerance: largest relative error of the frequencies that is accepted.
-        modes: number of modes, from the lowest.
-        comm: the processes, all by default; each solves the same, but for the poles of a plan, which they share, and
-            the mesh of a volume, which is distributed.
-        model: one that takes it; the smallest by default.
-        tones: whether the first elastic tones are sought.
-        report: receives messages on the progress.
-
-    Raises:
-        NotTreatedError: if no model takes it.
-        MeshError: if its plan cannot be meshed.
-        EigenSolverError: if the eigen-solver fails.
-    """
+    """Solve a tank in three dimensions in its smallest model (collective)."""
     model = model or level_model(physical)
     if model == "orders":
         from hydroelastic.fem.level_bed.solve import solve_level_tank

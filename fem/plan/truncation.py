@@ -55,16 +55,6 @@ def rectangle_energies(
 
     With W the dry shapes in more polynomials, and κ the stiffness of each, λ falls by Σ r²/κ, r = κ∫wW/∫W² − λ(m∫wW +
     ρ∫ψW), which is zero in the polynomials that are there. What is beyond these too follows from the slowest decay.
-
-    Args:
-        body: the plate.
-        finer: the same in more polynomials.
-        amplitudes: of its shapes in some modes at unit generalized mass, shape (modes, shapes).
-        eigenvalues: λ of the modes, shape (modes,).
-        pressures: ρ∫ψW of the shapes in more polynomials, shape (modes, finer shapes).
-
-    Returns:
-        The energy of each mode, shape (modes,).
     """
     count = body.coefficients.shape[1:]
     overlap = np.tensordot(body.coefficients, finer.coefficients[:, : count[0], : count[1]], ((1, 2), (1, 2)))
@@ -79,13 +69,7 @@ def rectangle_energies(
 
 
 def plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode], pressures_of: Pressures) -> NDArray[np.float64]:
-    """Relative errors of ω by the shapes that plates lack, shape (modes,).
-
-    Args:
-        plates: with their shapes, in the order of the unknowns.
-        modes: some modes.
-        pressures_of: ρ∫ψφ of these modes and the shapes of a plate, shape (modes, shapes).
-    """
+    """Relative errors of ω by the shapes that plates lack, shape (modes,)."""
     values = np.array([mode.eigenvalue for mode in modes])
     errors, first = np.zeros(len(modes)), 0
     for plate in plates:

@@ -96,17 +96,7 @@ class Collocation:
         step: float,
         loads: NDArray[np.float64] | None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """One step (collective).
-
-        Args:
-            displacement: w, dimensionless, own entries, shape (own entries,).
-            velocity: v, dimensionless, of the same shape.
-            step: h; a new length requires a new factorization.
-            loads: F at the nodes, own entries, shape (stages, own entries); ``None`` without loads.
-
-        Returns:
-            w and v at the end of the step.
-        """
+        """One step (collective)."""
         if step != self._step:
             self._factorize(step)
         rule = self.rule

@@ -54,25 +54,7 @@ def damped_modes(
     degree: int = MODE_DEGREE,
     quadratic: bool = False,
 ) -> DampedModes:
-    """Return the free motions with the roots of smallest magnitude.
-
-    Args:
-        comm: communicator.
-        string: the string.
-        count: number of roots, a conjugate pair counted once; an aperiodic mode has two real roots, of which the fast
-            one may lie far from zero.
-        positions: x of the shapes, m, from 0 to the length, shape (positions,).
-        elements: number of elements of equal travel time; by default enough for about thirteen digits.
-        degree: polynomial degree.
-        quadratic: solve the quadratic problem even where the drag is in proportion to the mass. Near a double root it
-            gives p to half of the digits only.
-
-    Returns:
-        The motions (collective).
-
-    Raises:
-        EigenSolverError: if SLEPc does not converge.
-    """
+    """Return the free motions with the roots of smallest magnitude."""
     if string.uniform_damping is not None and not quadratic:
         undamped = string_modes(comm, string, count, positions, elements=elements, degree=degree)
         return _from_undamped(undamped, string.uniform_damping)

@@ -35,16 +35,6 @@ def front_errors(
 
     The difference of two smoothings does not show the error everywhere: in the middle of a step both have the mean of
     its sides, and the ripples beside it pass through zero.
-
-    Args:
-        string: the string.
-        motion: of its upper end.
-        smoothed: the motion that the values follow.
-        positions: x, m, shape (positions,).
-        times: s, shape (times,).
-
-    Returns:
-        Bounds, m, shape (positions, times).
     """
     whole, travel = string.travel_time, string.travel_times(positions)
     bottom, slope = string.tension
@@ -75,7 +65,6 @@ def _nearest_passage(whole: float, travel: NDArray[np.float64], since: NDArray[n
 
 
 def _bends(motion: EndMotion, time: float, near: float) -> tuple[float, float]:
-    """Return the jump of f'', m/s², and about that of f''', m/s³."""
     first = after(motion.curvature, time)
     later = (float(np.asarray(motion.curvature(time + near))) - first) / near
     if time <= motion.breaks[0]:

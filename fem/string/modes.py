@@ -52,22 +52,7 @@ def string_modes(
     elements: int | None = None,
     degree: int = MODE_DEGREE,
 ) -> StringModes:
-    """Return the lowest modes without resistance.
-
-    Args:
-        comm: communicator.
-        string: the string.
-        count: number of modes.
-        positions: x of the shapes, m, from 0 to the length, shape (positions,).
-        elements: number of elements of equal travel time; by default enough for about fourteen digits.
-        degree: polynomial degree.
-
-    Returns:
-        The modes (collective).
-
-    Raises:
-        EigenSolverError: if SLEPc does not converge.
-    """
+    """Return the lowest modes without resistance."""
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     squares, vectors = undamped_pairs(pencil, count)
     closer, _ = undamped_pairs(richer, count)

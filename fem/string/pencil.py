@@ -74,14 +74,7 @@ def string_nodes(string: HangingString, elements: int) -> NDArray[np.float64]:
 
 
 def build_string_pencil(comm: MPI.Comm, string: HangingString, degree: int, nodes: NDArray[np.float64]) -> StringPencil:
-    """Assemble the matrices (collective).
-
-    Args:
-        comm: communicator.
-        string: the string.
-        degree: of the polynomials.
-        nodes: of the mesh, from 0 to 1.
-    """
+    """Assemble the matrices (collective)."""
     space = fem.functionspace(line_mesh(comm, nodes), ("Lagrange", degree))
     owned = space.dofmap.index_map.size_local
     places = space.tabulate_dof_coordinates()[:owned, 0]

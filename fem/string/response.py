@@ -117,26 +117,7 @@ def field_response(
     most_unknowns: int = 4_000,
     most_steps: int = 8_000,
 ) -> FieldResponse:
-    """Return the motion of a string at rest whose upper end is moved.
-
-    Args:
-        comm: communicator.
-        string: the string.
-        motion: of its upper end.
-        positions: x, m, up from the lower end, shape (positions,).
-        times: s, from the start of the motion, increasing, shape (times,).
-        tolerance: absolute, m.
-        judged: values that must keep the tolerance, shape (positions, times), all by default: the cost grows towards
-            fronts, and at the front of a step no tolerance can be kept.
-        most_unknowns: largest number of unknowns of a mesh.
-        most_steps: largest number of time steps.
-
-    Returns:
-        The displacements (collective).
-
-    Raises:
-        ValueError: if positions, times or the tolerance are out of range.
-    """
+    """Return the motion of a string at rest whose upper end is moved."""
     places, moments = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
     _check(string, motion, places, moments, tolerance)
     runs = StringRuns(comm, string, motion, places, moments, tolerance)
@@ -238,11 +219,8 @@ def _settled(runs: StringRuns, first: Resolution, share: float, known: TimeHisto
 def _refined(
     runs: StringRuns, share: float, judged: NDArray[np.bool_], most_unknowns: int, most_steps: int
 ) -> tuple[_Checked, NDArray[np.float64]]:
-    """Reduce the half-width of the smoothing until its errors are below a part of the tolerance, or the limits are met.
-
-    Returns:
-        The solution, and its errors from fronts, m, shape (positions, times).
-    """
+    """Reduce the half-width of the smoothing until its errors are below a part of the tolerance, or the limits are
+    met."""
     checked = _settled(runs, Resolution(half_width=_FIRST_HALF_WIDTH * runs.string.travel_time), share)
     resolution, values, last = checked.resolution.for_error(*checked.worst, share), checked.values, None
     front = np.full(values.shape, np.inf)
@@ -267,7 +245,6 @@ def _refined(
 
 
 def _problem(causes: ErrorsByCause, front: NDArray[np.float64], share: float, half_width: float) -> str:
-    """Why the tolerance is not reached everywhere."""
     problems = []
     if causes.front > share:
         problems.append(

@@ -85,7 +85,6 @@ class StringRuns:
         times: NDArray[np.float64],
         tolerance: float,
     ) -> None:
-        """Choose the digits of the smoothing."""
         self._comm, self._motion, self._times = comm, motion, times
         self.string, self._positions = string, positions
         sample = np.concatenate([times, np.linspace(times[0], times[-1], 64)])
@@ -120,12 +119,7 @@ class StringRuns:
         )
 
     def move(self, resolution: Resolution, elements: int | None = None) -> TimeHistory:
-        """Compute the motion (collective).
-
-        Args:
-            resolution: resolution of its waves.
-            elements: number of elements, in place of that of the resolution.
-        """
+        """Compute the motion (collective)."""
         started = perf_counter()
         pencil, probe = self._on_mesh(elements or self.elements(resolution))
         meshed = perf_counter()

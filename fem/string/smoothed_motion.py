@@ -40,7 +40,6 @@ class SmoothedMotion:
     """
 
     def __init__(self, motion: EndMotion, half_width: float, digits: float) -> None:
-        """Take the jumps of f and f' at the breaks."""
         span = sqrt(2.0 * digits * log(10.0))
         self.half_width = half_width
         self.middle = span**2 / half_width

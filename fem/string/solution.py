@@ -37,22 +37,7 @@ def field_solution(
     modes: int,
     report: Callable[[str], None] = lambda _message: None,
 ) -> StringSolution:
-    """Solve for free motions and displacements, to the tolerance away from wave fronts (collective).
-
-    Args:
-        comm: communicator.
-        string: the string.
-        motion: of its upper end, from rest at t = 0.
-        positions: heights x above the lower end, m, shape (positions,).
-        times: t, s, increasing, shape (times,).
-        tolerance: asked error of the displacement, relative to the largest one.
-        modes: number of free motions.
-        report: called with the name of each step.
-
-    Raises:
-        EigenSolverError: if SLEPc does not deliver the free motions.
-        ValueError: if positions, times or the tolerance are out of range.
-    """
+    """Solve for free motions and displacements, to the tolerance away from wave fronts (collective)."""
     started = perf_counter()
     report("free motions")
     free_motions = field_free_motions(comm, string, modes, positions)
@@ -97,11 +82,7 @@ def field_solution(
 def field_free_motions(
     comm: MPI.Comm, string: HangingString, count: int, positions: NDArray[np.float64]
 ) -> FreeMotions:
-    """Return the free motions of smallest |p|, with the real parts of their shapes (collective).
-
-    Raises:
-        EigenSolverError: if SLEPc does not deliver them.
-    """
+    """Return the free motions of smallest |p|, with the real parts of their shapes (collective)."""
     found = damped_modes(comm, string, count, positions)
     shapes = found.shapes.real
     largest = np.abs(shapes).max(axis=1, keepdims=True)

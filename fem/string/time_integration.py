@@ -78,19 +78,7 @@ def integrate_motion(
     *,
     stages: int = STAGES,
 ) -> TimeHistory:
-    """Integrate the motion of the string in time (collective).
-
-    Args:
-        pencil: matrices of the string.
-        probe: evaluates fields at the positions of the values.
-        motion: of the upper end; at rest before its first break.
-        times: output times, s, not before the first break, increasing, shape (times,).
-        control: length of the steps.
-        stages: of the collocation.
-
-    Returns:
-        Displacements and energies at the output times.
-    """
+    """Integrate the motion of the string in time (collective)."""
     unit, size = pencil.string.time_unit, len(pencil.free)
     collocation = Collocation(pencil.mass, pencil.resistance, pencil.stiffness, stages)
     field = pencil.zeros()

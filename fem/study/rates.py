@@ -92,11 +92,6 @@ def fitted_rates(tank: Tank, rows: Sequence[StudyRow], parities: Sequence[Parity
     """Fit the order of every degree on uniform and algebraic meshes that has three meshes above rounding.
 
     Where symmetric and antisymmetric modes have different singularities, each symmetry has its own order.
-
-    Args:
-        tank: the dimensionless tank.
-        rows: rows of its study.
-        parities: symmetry of each mode.
     """
     series = [row for row in rows if row.family in ("uniform", "algebraic")]
     symmetries = symmetries_apart(tank) or (None,)

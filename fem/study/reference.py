@@ -50,13 +50,7 @@ def finest_resolution(tank: Tank, modes: int) -> Resolution:
 
 
 def reference_of(physical: Tank, count: int, *, half: bool) -> Reference:
-    """The lowest frequencies of a tank by the closed form where there is one, else by a finer solution (collective).
-
-    Args:
-        physical: the tank, in SI units.
-        count: number of frequencies.
-        half: whether the symmetric tank is solved as two halves.
-    """
+    """The lowest frequencies of a tank by the closed form where there is one, else by a finer solution (collective)."""
     formula, frequencies = exact_frequencies(physical, count)
     if frequencies:
         return Reference(name=formula, omega=np.array(frequencies), uncertainty=0.0)

@@ -28,19 +28,7 @@ def mesh_row(
     element_size: float,
     grading: float | None = None,
 ) -> StudyRow | None:
-    """Solve once on a given mesh (collective).
-
-    Args:
-        studied: the tank.
-        family: series of the row.
-        resolution: degree and number of dry modes.
-        make_mesh: makes the mesh; its time is part of the cost.
-        element_size: size of elements of the mesh, in tank lengths, for the row.
-        grading: β of the mesh, for the row.
-
-    Returns:
-        The row; ``None`` if the mesh is too coarse for the requested modes.
-    """
+    """Solve once on a given mesh (collective)."""
     watch = Stopwatch()
     estimate = None
     with peak_memory(MPI.COMM_WORLD) as memory:

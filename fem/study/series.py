@@ -32,16 +32,7 @@ def nested_rows(
     halvings: int,
     most_unknowns: int,
 ) -> Iterator[StudyRow]:
-    """Solve on meshes with repeatedly halved elements, while errors are above rounding (collective).
-
-    Args:
-        studied: the tank; there are no such meshes along curved contours.
-        family: ``"algebraic"`` grades the uniform meshes towards the singular points, so that the full order is
-            expected; there are none where ψ is smooth.
-        degrees: polynomial degrees of ψ.
-        halvings: largest number of halvings of the elements.
-        most_unknowns: largest number of unknowns of ψ.
-    """
+    """Solve on meshes with repeatedly halved elements, while errors are above rounding (collective)."""
     tank = studied.tank
     if has_curved_contours(tank) or (family == "algebraic" and sharpest_of(tank) is None):
         return

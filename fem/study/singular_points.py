@@ -35,12 +35,7 @@ def has_curved_contours(tank: Tank) -> bool:
 
 
 def singular_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
-    """Return α of every singular point, of a symmetric tank in its left half.
-
-    Args:
-        tank: the dimensionless tank.
-        parity: symmetry of the modes; ``None`` is the sharper of both.
-    """
+    """Return α of every singular point, of a symmetric tank in its left half."""
     if not tank.bodies:
         return {}
     if not is_mirror_image(tank):
@@ -56,10 +51,6 @@ def sharpest_of(tank: Tank, parity: Parity | None = None) -> float | None:
 
     1 at a tip beside a free surface or a lid, 1/2 beside a surface with ψ = 0, 2 where a free end meets a wall; π/θ at
     the corner of a float with the liquid's angle θ.
-
-    Args:
-        tank: the dimensionless tank.
-        parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
     """
     return min(singular_exponents(tank, parity).values(), default=None)
 

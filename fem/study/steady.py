@@ -19,11 +19,7 @@ _Row = TypeVar("_Row", StudyRow, StudyRow | None)
 
 
 def steadily_timed(solve: Callable[_Given, _Row]) -> Callable[_Given, _Row]:
-    """Return a function that repeats short solutions of ``solve`` and keeps the fastest.
-
-    Args:
-        solve: returns a row (collective).
-    """
+    """Return a function that repeats short solutions of ``solve`` and keeps the fastest."""
 
     @wraps(solve)
     def timed(*given: _Given.args, **named: _Given.kwargs) -> _Row:

@@ -45,11 +45,7 @@ def gain_along_a_ray(ring_ratio: float) -> float:
 
 
 def expected_remainders(tank: Tank, degrees: Sequence[int], parity: Parity | None = None) -> np.ndarray | None:
-    """Return relative errors of a frequency, up to a common factor, on the geometric rings of the meshes.
-
-    Returns:
-        Errors of shape (degrees,); ``None`` where ψ is smooth.
-    """
+    """Return relative errors of a frequency, up to a common factor, on the geometric rings of the meshes."""
     alpha = sharpest_of(tank, parity)
     if alpha is None:
         return None

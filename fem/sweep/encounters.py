@@ -57,7 +57,6 @@ def encounters(followed: FollowedModes) -> tuple[Encounter, ...]:
 
 
 def _crossings(followed: FollowedModes) -> Iterator[Encounter]:
-    """Branches whose order changes from one value to the next."""
     omega = followed.of_branches("omega")
     for place, (before, after) in enumerate(pairwise(omega)):
         step = followed.steps[place]

@@ -95,18 +95,7 @@ def _picked(values: Array, row: Array) -> Array:
 def follow(
     values: Sequence[float], modes: Sequence[ModeVectors | None], solve: Solve, *, count: int, most: int
 ) -> FollowedModes | None:
-    """Follow the modes of some solutions, and refine the steps where that is doubtful.
-
-    Args:
-        values: of the parameter, in any order.
-        modes: at these values; ``None`` where there is no solution.
-        solve: solves more of them.
-        count: number of modes, from the lowest, that have to be followed with certainty.
-        most: number of values that may be added.
-
-    Returns:
-        The followed modes; ``None`` without a solution.
-    """
+    """Follow the modes of some solutions, and refine the steps where that is doubtful."""
     known = {value: found for value, found in zip(values, modes, strict=True) if found is not None}
     given, asked = frozenset(known), set(values)
     if not known:
@@ -144,13 +133,7 @@ def follow(
 
 
 def step_between(one: ModeVectors, two: ModeVectors, count: int) -> Step:
-    """Assign the modes at two neighbouring values of the parameter to each other.
-
-    Args:
-        one: modes at the first value.
-        two: modes at the second.
-        count: number of modes that have to be assigned with certainty.
-    """
+    """Assign the modes at two neighbouring values of the parameter to each other."""
     match = np.full(len(one.omega), -1)
     kept = np.full(len(one.omega), np.nan)
     swapped, doubtful = [], []
@@ -183,7 +166,6 @@ def _classes(one: ModeVectors, two: ModeVectors) -> Iterator[tuple[Array, Array]
 
 
 def _are_equal(modes: ModeVectors, pair: Array) -> bool:
-    """Whether two frequencies differ by less than their errors."""
     low, high = modes.omega[pair]
     return bool(high - low <= high * error_of(modes, pair))
 
@@ -196,7 +178,6 @@ def error_of(modes: ModeVectors, pair: Sequence[int] | Array) -> float:
 def _refinement(
     ends: tuple[float, float], one: ModeVectors, two: ModeVectors, count: int, shortest: float
 ) -> list[float]:
-    """Values between two neighbouring ones that are to be solved."""
     step = step_between(one, two, count)
     length = ends[1] - ends[0]
     if length < shortest:

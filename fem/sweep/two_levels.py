@@ -38,16 +38,7 @@ class Approach:
 
 
 def approach(ends: tuple[float, float], gaps: tuple[float, float], products: np.ndarray) -> Approach | None:
-    """Return the approach of two frequencies from two values of the parameter.
-
-    Args:
-        ends: both values.
-        gaps: λ₂ − λ₁ there.
-        products: K-inner products of both modes there, shape (2, 2).
-
-    Returns:
-        The approach; ``None`` where the vectors are equal.
-    """
+    """Return the approach of two frequencies from two values of the parameter."""
     turned = 2.0 * atan2(hypot(products[0, 1], products[1, 0]), hypot(products[0, 0], products[1, 1]))
     along = gaps[0] - gaps[1] * cos(turned), -gaps[1] * sin(turned)
     length = hypot(*along)
@@ -59,12 +50,7 @@ def approach(ends: tuple[float, float], gaps: tuple[float, float], products: np.
 
 
 def nearest(values: np.ndarray, gaps: np.ndarray) -> Approach:
-    """Return the approach of three points around the smallest gap, whose square is a parabola.
-
-    Args:
-        values: three values of the parameter, ascending.
-        gaps: λ₂ − λ₁ there.
-    """
+    """Return the approach of three points around the smallest gap, whose square is a parabola."""
     middle = values[1]
     curvature, slope, square = np.polyfit(values - middle, gaps**2, 2)
     if curvature <= 0.0:

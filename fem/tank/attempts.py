@@ -46,17 +46,7 @@ def best_attempt(
     infinite_frequency: bool = False,
     remesh: bool = True,
 ) -> Attempt[Result]:
-    """Return the first attempt whose error is below a tolerance, or the best of a few (collective).
-
-    Args:
-        tank: the dimensionless tank.
-        tolerance: largest relative error that is accepted, or what double precision allows, see `workable_tolerance`.
-        solve: solves at a resolution.
-        first: resolution of the first attempt.
-        rounds: largest number of attempts.
-        infinite_frequency: whether the infinite-frequency limit is solved.
-        remesh: whether new meshes may be made; a user mesh is kept.
-    """
+    """Return the first attempt whose error is below a tolerance, or the best of a few (collective)."""
     tolerance = workable_tolerance(tolerance, tank.depth)
 
     def finer(resolution: Resolution, attempt: Attempt[Result]) -> Resolution | None:

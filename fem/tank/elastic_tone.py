@@ -82,14 +82,7 @@ def participations(modes: Amplitudes, bodies: tuple[Body, ...], body: int) -> np
 def elastic_tone(
     modes: Amplitudes, bodies: tuple[Body, ...], body: int, *, pressure_release: float | None = None
 ) -> ElasticTone:
-    """Return the mode of largest participation.
-
-    Args:
-        modes: the modes.
-        bodies: the bodies of the pencil.
-        body: index of the beam.
-        pressure_release: dimensionless λ of its pressure-release tone, near which the participations are large, if any.
-    """
+    """Return the mode of largest participation."""
     parts = participations(modes, bodies, body)
     order = np.argsort(parts)[::-1]
     best, second = parts[order[0]], parts[order[1]] if len(parts) > 1 else 0.0
@@ -154,17 +147,7 @@ def bending_fractions(modes: Sequence[Mode], bodies: tuple[Body, ...]) -> np.nda
 
 
 def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
-    """Return the added mass m_a = k/λ − m of a tone or a motion from its frequency, with its relative error.
-
-    Args:
-        stiffness: generalized stiffness k: EI κ⁴ + s ρ g of a dry mode, or that of a float's motion.
-        mass: generalized mass m of the dry mode or the motion.
-        eigenvalue: λ = ω², in the unit of k/m.
-        relative_error: relative error of ω.
-
-    Returns:
-        The added mass in the same unit as ``mass``, and its relative error.
-    """
+    """Return the added mass m_a = k/λ − m of a tone or a motion from its frequency, with its relative error."""
     whole = stiffness / eigenvalue
     added = whole - mass
     return added, 2.0 * relative_error * whole / abs(added) if added else 1.0

@@ -78,16 +78,7 @@ def frequency_errors(
     *,
     infinite_frequency: bool = False,
 ) -> FrequencyErrors:
-    """Estimate the errors of some modes (collective).
-
-    Args:
-        solution: the modes at one resolution.
-        modes: the modes, with their ψ.
-        origins: of each of them.
-        resolution: resolution of the solution.
-        tank: the dimensionless tank.
-        infinite_frequency: whether the solution is that of the infinite-frequency limit.
-    """
+    """Estimate the errors of some modes (collective)."""
 
     half, rings = solution.half, resolution.tip_size is not None
     at_tips = cells_at_tips(solution.mesh, tank, half=half, infinite_frequency=infinite_frequency, rings=rings)
@@ -117,15 +108,7 @@ def frequency_errors(
 def cells_at_tips(
     mesh: TankMesh, tank: Tank, *, half: bool, infinite_frequency: bool, rings: bool = True
 ) -> np.ndarray:
-    """Return which owned cells are the innermost ones at a tip, shape (cells,).
-
-    Args:
-        mesh: of the tank, or of its left half.
-        tank: the dimensionless tank.
-        half: whether the mesh is that of the left half.
-        infinite_frequency: whether it is for the infinite-frequency limit.
-        rings: whether it is graded towards the tips; without rings no cell is an innermost one.
-    """
+    """Return which owned cells are the innermost ones at a tip, shape (cells,)."""
     points = tip_points(tank, half=half, infinite_frequency=infinite_frequency) if rings else np.empty((0, 2))
     return cells_at(mesh.mesh, points)
 
@@ -155,16 +138,7 @@ def added_mass_errors(
     *,
     half: bool,
 ) -> FrequencyErrors:
-    """Estimate relative errors of added masses in the infinite-frequency limit (collective).
-
-    Args:
-        liquid: the space of ψ.
-        potentials: ψ of a unit of each motion.
-        added_mass: scale of the error of each motion, shape (motions,).
-        tank: the dimensionless tank.
-        resolution: resolution of the mesh.
-        half: whether the mesh is that of the left half of the tank.
-    """
+    """Estimate relative errors of added masses in the infinite-frequency limit (collective)."""
     rings = resolution.tip_size is not None
     at_tips = cells_at_tips(liquid.tank, tank, half=half, infinite_frequency=True, rings=rings)
     away, tips = _away_and_at(at_tips, liquid, potentials).T
@@ -191,18 +165,7 @@ def boundary_error(mesh: TankMesh, tank: Tank) -> float:
 def refined(
     resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, remesh: bool
 ) -> Resolution | None:
-    """Return a finer resolution, with which each cause is expected to keep its part of the tolerance.
-
-    Args:
-        resolution: the last resolution.
-        errors: errors at the last resolution.
-        tolerance: tolerance of the frequencies.
-        exponent: α of ψ ~ r^α at the sharpest tips.
-        remesh: whether new meshes may be made; a user mesh is kept.
-
-    Returns:
-        The next resolution; ``None`` where rounding alone exceeds the tolerance, or no refinement is left.
-    """
+    """Return a finer resolution, with which each cause is expected to keep its part of the tolerance."""
     if errors.largest("rounding") > tolerance:
         return None
     share = tolerance / (len(fields(errors)) - 1)

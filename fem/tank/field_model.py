@@ -27,24 +27,12 @@ from hydroelastic.physics.tank import Tank
 def build_mesh(
     comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
 ) -> TankMesh:
-    """Mesh a scaled tank, or its left half, with gmsh on rank 0 and distribute it (collective).
-
-    Args:
-        comm: MPI communicator.
-        tank: the dimensionless tank.
-        resolution: sizes of elements.
-        half: whether the left half of a symmetric tank is meshed.
-        infinite_frequency: whether the mesh is for the infinite-frequency limit.
-    """
+    """Mesh a scaled tank, or its left half, with gmsh on rank 0 and distribute it (collective)."""
     return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, infinite_frequency=infinite_frequency))
 
 
 def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh:
-    """Make a mesh, in units of the tank, on rank 0 and distribute it (collective).
-
-    Raises:
-        MeshError: on all ranks, if ``make`` fails.
-    """
+    """Make a mesh, in units of the tank, on rank 0 and distribute it (collective)."""
     tagged, problem = None, ""
     if comm.rank == 0:
         try:
@@ -59,11 +47,7 @@ def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh
 
 
 def distributed_user_mesh(comm: MPI.Comm, tank: Tank, tagged: TaggedMesh | None) -> TankMesh:
-    """Distribute a user mesh, on rank 0 in units of the tank, after checking that it fits the scene (collective).
-
-    Raises:
-        MeshError: on all ranks, if a group is missing, or a group does not lie where the scene says.
-    """
+    """Distribute a user mesh, on rank 0 in units of the tank, after checking that it fits the scene (collective)."""
 
     def checked() -> TaggedMesh:
         assert tagged is not None
@@ -76,19 +60,7 @@ def distributed_user_mesh(comm: MPI.Comm, tank: Tank, tagged: TaggedMesh | None)
 def build_field_model(
     mesh: TankMesh, tank: Tank, *, degree: int, shapes: tuple[int, ...], infinite_frequency: bool = False
 ) -> CoupledPencil:
-    """Assemble the coupled problem of a whole tank.
-
-    Args:
-        mesh: the liquid's mesh.
-        tank: the dimensionless tank.
-        degree: polynomial degree of ψ.
-        shapes: number of dry modes of each beam, 0 for floats.
-        infinite_frequency: whether to assemble the infinite-frequency limit, ψ = 0 on an open top and ρψ continuous
-            across an open interface, on a mesh for that limit.
-
-    Returns:
-        The dimensionless pencil (collective).
-    """
+    """Assemble the coupled problem of a whole tank."""
     (pencil,) = _field_models(mesh, tank, degree, shapes, infinite_frequency, (None,))
     return pencil
 
@@ -102,20 +74,7 @@ def build_half_models(
     infinite_frequency: bool = False,
     parities: tuple[Parity, ...] = PARITIES,
 ) -> tuple[CoupledPencil, ...]:
-    """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image.
-
-    Args:
-        mesh: the mesh of the half.
-        tank: the whole dimensionless tank.
-        degree: polynomial degree of ψ.
-        shapes: number of dry modes of each beam of the whole tank, 0 for floats.
-        infinite_frequency: whether to assemble the infinite-frequency limit.
-        parities: symmetries of the problems.
-
-    Returns:
-        A pencil for each of the parities, with energies of half the tank (collective). A body that the mirror plane
-        cuts keeps its shapes of that parity; of two bodies that are mirror images it has the left one.
-    """
+    """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image."""
     return _field_models(mesh, tank, degree, shapes, infinite_frequency, parities)
 
 

@@ -107,20 +107,7 @@ def solve_field(
     half: bool,
     models: Callable[..., PartPencils] | None = None,
 ) -> FieldSolution:
-    """Assemble and solve for the lowest modes (collective).
-
-    Args:
-        mesh: the mesh, of the left half if ``half``.
-        tank: the dimensionless tank.
-        resolution: degree and number of dry modes.
-        count: number of modes; fewer are returned if the model has fewer.
-        watch: records the time of assembly and of solution.
-        half: whether a symmetric tank is solved as two halves.
-        models: what assembles the problems, with the arguments of `part_models`, which is the default.
-
-    Raises:
-        EigenSolverError: if SLEPc stops before enough pairs have converged.
-    """
+    """Assemble and solve for the lowest modes (collective)."""
     with watch.stage("assemble"):
         pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
     with watch.stage("solve"):
@@ -137,16 +124,7 @@ def part_models(
     infinite_frequency: bool = False,
 ) -> PartPencils:
     """Assemble the problems of a tank by their symmetries: one of the whole tank, or those of its halves that have
-    unknowns (collective).
-
-    Args:
-        mesh: the mesh, of the left half if ``half``.
-        tank: the dimensionless tank.
-        degree: polynomial degree of ψ.
-        shapes: number of dry modes of each beam, 0 for floats.
-        half: whether a symmetric tank is solved as two halves.
-        infinite_frequency: whether to assemble the infinite-frequency limit, on a mesh for that limit.
-    """
+    unknowns (collective)."""
     if not half:
         pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, infinite_frequency=infinite_frequency)
         return {None: pencil}
@@ -165,11 +143,7 @@ def solve_parts(
     pencils: PartPencils,
     count: int,
 ) -> FieldSolution:
-    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective).
-
-    Raises:
-        EigenSolverError: if SLEPc stops before enough pairs have converged.
-    """
+    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective)."""
     if None not in pencils:
         shapes = shapes_of_twins(tank, shapes)
     return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
@@ -274,14 +248,7 @@ class Extension(NamedTuple):
 
 
 def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None, surfaces: int = 0) -> Extension:
-    """Return how the unknowns of a part become those of the whole tank.
-
-    Args:
-        tank: the dimensionless tank.
-        bodies: of the whole tank.
-        parity: of the part; ``None`` is the whole tank.
-        surfaces: number of moving surfaces of the liquids.
-    """
+    """Return how the unknowns of a part become those of the whole tank."""
     if parity is None:
         size = sum(body.size for body in bodies)
         return Extension(np.eye(size), np.eye(size + surfaces))

@@ -94,15 +94,7 @@ def float_modes(
     *,
     complete: bool,
 ) -> tuple[FloatMode, ...]:
-    """Find the mode of each motion.
-
-    Args:
-        tank: the dimensionless tank.
-        bodies: its bodies in the field model.
-        modes: the computed modes.
-        added: added mass of the floats at infinite frequency.
-        complete: whether the computed modes are all modes of the tank.
-    """
+    """Find the mode of each motion."""
     found = []
     for motion in _restored(tank, bodies):
         moved = modes.elastic_amplitudes[:, motion.place] ** 2

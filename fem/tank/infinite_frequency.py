@@ -107,22 +107,7 @@ def infinite_frequency_limit(
     liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> InfiniteFrequencyLimit:
-    """Solve the limit to a tolerance, or return the best of a few attempts (collective).
-
-    Args:
-        comm: MPI communicator.
-        tank: the dimensionless tank.
-        first: resolution of the first attempt, see `infinite_frequency_resolution`.
-        tolerance: largest relative error that is accepted.
-        watch: records the time by stage.
-        half: whether a symmetric tank is solved as two halves.
-        user_mesh: a user mesh instead of the built-in one.
-        liquids: makes mesh and matrices.
-        report: receives messages on the progress.
-
-    Returns:
-        The results; empty where there is no such limit.
-    """
+    """Solve the limit to a tolerance, or return the best of a few attempts (collective)."""
     # About an axis nothing moves in some orders.
     moving = [index for index in tank.rigid if tank.bodies[index].rigid_motions]
     has_tones, has_added_mass = toned_bodies(tank) and tank.has_waves, moving and tank.has_infinite_frequency_limit
@@ -174,7 +159,6 @@ def infinite_frequency_limit(
 def _released(
     tank: Tank, modes: ReleasedModes, resolution: Resolution, tolerance: float
 ) -> Attempt[InfiniteFrequencyLimit]:
-    """The limit of a single beam from its modes."""
     found = elastic_tone(modes, modes.bodies, 0)
     errors, tone = modes.errors_of(found.index), None
     if not _is_hidden(modes.eigenvalues, found, tolerance):

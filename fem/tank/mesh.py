@@ -35,17 +35,7 @@ def geometry_of(tank: Tank, *, half: bool = False) -> TankGeometry:
 def make_mesh(
     tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
 ) -> TaggedMesh:
-    """Mesh a scaled tank, or its left half, with gmsh; in units of the tank.
-
-    Args:
-        tank: the dimensionless tank.
-        resolution: sizes of elements, and the degree, which is also that of curved cells.
-        half: whether the left half of a symmetric tank is meshed.
-        infinite_frequency: whether the mesh is for the infinite-frequency limit.
-
-    Raises:
-        MeshError: if gmsh fails.
-    """
+    """Mesh a scaled tank, or its left half, with gmsh; in units of the tank."""
     # gmsh takes a third of a second to import, and a scene with a user mesh does not need it.
     if is_plain(tank):
         from hydroelastic.meshes.tank import build_tank_mesh
@@ -113,23 +103,13 @@ def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -
     """Number of unknowns of a continuous polynomial of a degree on simply connected meshes of triangles.
 
     With each triangle divided into n², a mesh has as many unknowns as the original one at n times the degree.
-
-    Args:
-        points: number of nodes.
-        triangles: number of triangles.
-        degree: degree of the polynomial.
-        parts: number of unconnected meshes, such as those of two liquids.
     """
     edges = points + triangles - parts
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
 
 
 def check_mesh(tank: Tank, tagged: TaggedMesh) -> None:
-    """Check names and extents of a mesh against the scene.
-
-    Raises:
-        MeshError: naming the group, where it lies and where it should.
-    """
+    """Check names and extents of a mesh against the scene."""
     geometry = geometry_of(tank)
     names = dict.fromkeys(segment.name for segment in geometry.segments)
     tagged.require(cells=(LIQUID,), facets=names)

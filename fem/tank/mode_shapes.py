@@ -48,9 +48,6 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
 
     The largest displacement of a body, or without bodies of the lowest surface, is positive: upwards, to the right or
     anticlockwise.
-
-    Returns:
-        The shapes on rank 0, ``None`` elsewhere.
     """
     tank, field = solution.tank, solution.field
     growing = sorted(

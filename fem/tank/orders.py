@@ -65,16 +65,6 @@ def solve_by_order(
     """Solve a tank of revolution, or of an extruded section with rigid floats across its width (collective).
 
     See `solve_tank`.
-
-    Args:
-        physical: the tank in SI units, of any order.
-        tolerance: largest relative error of the frequencies that is accepted.
-        modes: number of modes, from the lowest.
-        comm: MPI communicator; all processes by default.
-        report: receives messages on the progress.
-
-    Raises:
-        ValueError: if there are beams.
     """
     if physical.beams:
         raise ValueError("beams do not bend across the section: no order describes them")

@@ -71,17 +71,7 @@ def zero_on_axis(tank: Tank) -> tuple[str, ...]:
 
 
 def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequency: bool = False) -> Outline:
-    """Return the outline of a tank, or of its left half, without graded points.
-
-    Args:
-        tank: the dimensionless tank.
-        sizes: largest sizes of elements.
-        half: whether the left half of a symmetric tank is meant.
-        infinite_frequency: whether it is for the infinite-frequency limit, in which the open interface is no boundary.
-
-    Raises:
-        MeshError: if a thin float has another body straight above or below it.
-    """
+    """Return the outline of a tank, or of its left half, without graded points."""
     builder = _Builder(
         tank=tank, sizes=sizes, right=MIDDLE if half else 1.0, half=half, infinite_frequency=infinite_frequency
     )
@@ -91,8 +81,6 @@ def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequ
 
 @dataclass(kw_only=True)
 class _Builder:
-    """Collects curves, each only once if two regions share it."""
-
     tank: Tank
     sizes: Sizes
     right: float
@@ -124,7 +112,6 @@ class _Builder:
         return dict(sorted(splits.items()))
 
     def _floor(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
-        """The lower side of a layer from left to right."""
         if number > 0:
             return self._level(self.tank.levels[number - 1], marks, upper_side=True)
         if self.tank.bed == "sphere":
@@ -138,7 +125,6 @@ class _Builder:
         return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
 
     def _ceiling(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
-        """The upper side of a layer from left to right."""
         return self._level(self.tank.levels[number], marks, upper_side=False)
 
     def _level(self, level: StillLevel, marks: tuple[float, ...], *, upper_side: bool) -> list[Directed]:
@@ -274,7 +260,6 @@ def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
 
 
 def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
-    """Divide an arc at its knots, where a spline is not smooth."""
     if not arc.knots:
         yield arc
         return
@@ -312,6 +297,5 @@ _ON_PLANE = 1e-13
 
 
 def _onto(arc: Arc, x: float) -> Arc:
-    """Return an arc with ends near the plane moved onto it."""
     start, end = ((x, p[1]) if abs(p[0] - x) < _ON_PLANE else p for p in (arc.start, arc.end))
     return replace(arc, start=start, end=end)

@@ -85,7 +85,6 @@ def released_modes(tank: Tank, count: int) -> ReleasedModes | None:
 
 
 def _added_mass(tank: Tank, count: int) -> np.ndarray | None:
-    """M_a of the dry modes."""
     alone = is_plain(tank) and len(tank.bodies) == 1 and tank.geometry.kind == "plane" and tank.top == "free"
     if not alone or type(tank.bodies[0]) is not Beam or not tank.beams[0].is_uniform or tank.beams[0].ends != "free":
         return None

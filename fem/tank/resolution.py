@@ -117,13 +117,6 @@ def initial_resolution(
 
     Elements are as long as their degree resolves the shortest wave to the tolerance; the innermost rings are as small
     as the singularity at the tips requires.
-
-    Args:
-        tank: the dimensionless tank, of unit length.
-        tolerance: largest relative error that is accepted.
-        modes: number of requested modes.
-        tones: estimated dimensionless λ of the first elastic tone of each beam.
-        motions: dimensionless λ up to which the mode of each motion of a float is sought.
     """
     sought = sought_modes(tank, modes=modes, tones=tones, motions=motions)
     moving = moving_pieces(tank)
@@ -189,13 +182,7 @@ def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> flo
 
 def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
     """Return the resolution of the infinite-frequency limit: without waves beside the bodies, with sharper
-    singularities.
-
-    Args:
-        tank: the dimensionless tank.
-        tolerance: largest relative error that is accepted.
-        tones: estimated dimensionless λ of the first elastic tone of each beam.
-    """
+    singularities."""
     expected = dict.fromkeys(tank.elastic, 0.0) | dict(zip(toned_bodies(tank), tones, strict=False))
     wavenumbers = tuple(
         max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected[piece.body]))
@@ -210,12 +197,7 @@ def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[flo
 
 
 def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
-    """Return the smallest α of ψ ~ r^α at a tip, a corner or a contact point.
-
-    Args:
-        tank: the dimensionless tank.
-        infinite_frequency: whether it is that of the infinite-frequency limit.
-    """
+    """Return the smallest α of ψ ~ r^α at a tip, a corner or a contact point."""
     if not tank.hulls:
         return 0.5 if infinite_frequency or tank.top == "pressure_release" else 1.0
     from hydroelastic.fem.tank.outline import unsized
@@ -236,12 +218,6 @@ def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...],
 
     Where ψ ~ r^α at a tip, the error falls like the radius of the innermost ring to the power 2α: like its square
     beside a free surface or a lid, ψ ~ r ln r, like the radius itself beside a surface with ψ = 0, ψ ~ r^{1/2}.
-
-    Args:
-        tank: the dimensionless tank.
-        tolerance: largest relative error that is accepted.
-        wavenumbers: largest dimensionless wavenumber on each piece.
-        exponent: α of the sharpest singularity.
     """
     # Measured on tanks with known modes: the cheapest degree for each tolerance.
     degree = ceil(1.5 - 0.75 * log10(tolerance))

@@ -65,14 +65,7 @@ def singular_points(
     continuous_pressure: bool,
     kinks: dict[Point, float] | None = None,
 ) -> tuple[SingularPoint, ...]:
-    """Find the singular points of an outline.
-
-    Args:
-        outline: outline of the liquids.
-        zero_potential: names of curves with ψ = 0.
-        continuous_pressure: whether ρψ is continuous across lines between liquids of different densities.
-        kinks: points of smooth sides at which the prescribed displacement or a derivative jumps, with α there.
-    """
+    """Find the singular points of an outline."""
     wedges = _wedges(outline)
     points = []
     for point, around in wedges.items():
@@ -102,7 +95,6 @@ def _wedges(outline: Outline) -> dict[Point, list[_Wedge]]:
 
 
 def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
-    """Direction of a curve at one of its ends, rad."""
     t = np.array([0.0, _NEAR]) if from_start else np.array([1.0, 1.0 - _NEAR])
     curve = outline.curves[number]
     (x, y), (x_near, y_near) = curve.at(t)
@@ -111,15 +103,12 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sector:
-    """Wedges without a boundary between them."""
-
     names: tuple[str, str]
     angle: float
     crossed: bool
 
 
 def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
-    """Wedges with those beyond uncut lines joined to them."""
     by_leaving = {wedge.leaving: wedge for wedge in around}
     inner = {wedge.coming for wedge in around if wedge.coming in by_leaving and not outline.curves[wedge.coming].cut}
     for wedge in around:

@@ -118,26 +118,7 @@ def solve_tank(
     liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> TankSolution:
-    """Solve a tank between walls (collective).
-
-    Args:
-        physical: the tank, in SI units.
-        tolerance: largest relative error of the frequencies that is accepted.
-        modes: number of modes, from the lowest.
-        comm: MPI communicator; all processes by default.
-        mesh: a user mesh of the liquid in metres (on rank 0), instead of the built-in one. Its elements are kept, and
-            only degree and dry modes are refined.
-        halves: whether a symmetric tank is solved as two halves; ``False`` is for comparison.
-        liquids: makes mesh and matrices; several tanks may share them.
-        report: receives messages on the progress.
-
-    Returns:
-        The solution, with `TankSolution.reasons` where it does not keep the tolerance.
-
-    Raises:
-        MeshError: if the mesh does not fit the scene.
-        EigenSolverError: if the eigen-solver fails.
-    """
+    """Solve a tank between walls (collective)."""
     comm = comm or MPI.COMM_WORLD
     watch = Stopwatch()
     given = comm.bcast(mesh is not None, root=0)
@@ -216,7 +197,6 @@ def _judged(
     watch: Stopwatch,
     attempt: int,
 ) -> TankSolution:
-    """Return an attempt with its estimated errors and reasons."""
     tolerance, count = asked_for
     tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(toned_bodies(tank)))
     complete = len(field.modes.eigenvalues) <= resolution.modes
@@ -316,13 +296,7 @@ def _modes_there(solution: TankSolution) -> float:
 
 
 def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> SharedLiquids:
-    """Return liquids for all tanks of one `liquid_key`, at a resolution that suffices for some of them (collective).
-
-    Args:
-        tanks: some of them, in SI units.
-        tolerance: as that of `solve_tank`.
-        modes: the same.
-    """
+    """Return liquids for all tanks of one `liquid_key`, at a resolution that suffices for some of them (collective)."""
     scaled = [tank.scaled() for tank in tanks]
     limits = [ANEW.first_of_limit(tank, workable_tolerance(tolerance, tank.depth)) for tank in scaled]
     fields = [ANEW.first(tank, tolerance, modes) for tank in scaled]

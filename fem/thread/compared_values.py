@@ -30,12 +30,7 @@ class ComparedValues:
 
 
 def compared_values(solution: ThreadAnalyses, estimate: ValueEstimate) -> ComparedValues:
-    """Return the values of the field solution that an estimate is of, in its order.
-
-    Args:
-        solution: the field solution.
-        estimate: of the same thread.
-    """
+    """Return the values of the field solution that an estimate is of, in its order."""
     analysis = estimate.analysis
     match estimate.quantity:
         case "frequency" | "frequency in the plane" | "frequency out of the plane":

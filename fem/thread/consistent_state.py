@@ -56,12 +56,7 @@ class ConsistentState:
         return self._solve("start", held, self._velocity_equations, _SHORT_TIME)
 
     def solve_accelerations(self, held: HeldUnknowns, *, unstretched: bool = False) -> bool:
-        """Solve for accelerations, axial force and curvature; the result is in the unknown.
-
-        Args:
-            held: prescribed unknowns.
-            unstretched: whether the thread is taken as inextensible.
-        """
+        """Solve for accelerations, axial force and curvature; the result is in the unknown."""
         self._unknown.x.array[:] = 0.0
         if unstretched and self._forms.model.axial_rigidity < inf:
             return self._solve("unstretched", held, partial(self._acceleration_equations, inf), _SHORT_TIME**2)
@@ -107,7 +102,6 @@ class ConsistentState:
         return form + self._rest()
 
     def _rest(self) -> Any:
-        """The curvature is not needed here: zero."""
         if not self._forms.model.bends:
             return 0
         return ufl.inner(ufl.split(self._unknown)[2], self._tests[2]) * self._forms.space.dx

@@ -64,21 +64,7 @@ class RampedEquilibrium:
 def solve_with_ramps(
     comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, *, degree: int
 ) -> RampedEquilibrium:
-    """Solve on one mesh: directly, else by continuation in clamps, drag, stiffness or rigidity.
-
-    Args:
-        comm: communicator.
-        model: the thread, SI.
-        nodes: s of the nodes, m.
-        start: where Newton's method begins.
-        degree: of the positions.
-
-    Returns:
-        The equilibrium (collective).
-
-    Raises:
-        ThreadSolverError: where all fail, with the reason of each.
-    """
+    """Solve on one mesh: directly, else by continuation in clamps, drag, stiffness or rigidity."""
     reasons = []
     try:
         return RampedEquilibrium(_solve_unfolded(comm, model, nodes, start, degree), "", 0)
@@ -103,20 +89,7 @@ def solve_with_ramps(
 
 
 def start_with_decreasing_rigidity(comm: MPI.Comm, model: Thread, start: Start, *, degree: int) -> Start:
-    """The shape of a slack thread by continuation to decreasing flexural rigidity.
-
-    Args:
-        comm: communicator.
-        model: the thread, SI, without flexural rigidity.
-        start: where Newton's method begins with the largest rigidity.
-        degree: of the positions.
-
-    Returns:
-        Positions and tensions with the smallest rigidity (collective).
-
-    Raises:
-        ThreadSolverError: where one of the solutions is not found.
-    """
+    """The shape of a slack thread by continuation to decreasing flexural rigidity."""
     force = natural_units(model, start, np.arange(_LOOKS) * model.length / (_LOOKS - 1)).force
     for part in _FADING:
         bent = replace(model, flexural_rigidity=part * force * model.length**2)
@@ -127,12 +100,7 @@ def start_with_decreasing_rigidity(comm: MPI.Comm, model: Thread, start: Start, 
 
 
 def with_drag(model: Thread, part: float) -> Thread:
-    """The thread with a part of all its drags.
-
-    Args:
-        model: the thread.
-        part: from 0 to 1.
-    """
+    """The thread with a part of all its drags."""
 
     def load(of: PointLoad) -> PointLoad:
         return replace(of, drag=part * of.drag)
@@ -149,25 +117,13 @@ def with_drag(model: Thread, part: float) -> Thread:
 
 
 def with_stiffness(model: Thread, part: float, force: float) -> Thread:
-    """The thread with more stretch: 1/EA is that of the thread and (1 − part)/force.
-
-    Args:
-        model: the thread.
-        part: from 0 to 1.
-        force: that would double the length of the softest thread, N.
-    """
+    """The thread with more stretch: 1/EA is that of the thread and (1 − part)/force."""
     compliance = 1.0 / model.axial_rigidity + (1.0 - part) / force
     return replace(model, axial_rigidity=1.0 / compliance if compliance > 0.0 else inf)
 
 
 def with_turned_clamps(model: Thread, part: float, start: Start) -> Thread:
-    """The thread with clamps rotated by a part of the angle from the direction of a start to their own.
-
-    Args:
-        model: the thread.
-        part: from 0 to 1.
-        start: SI, as the thread is.
-    """
+    """The thread with clamps rotated by a part of the angle from the direction of a start to their own."""
     steps = np.array([0.0, _NEAR, 1.0 - _NEAR, 1.0]) * model.length
     places = start.position(steps)
     chord = places[-1] - places[0]

@@ -50,19 +50,7 @@ class Eigenpair:
 
 
 def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:
-    """The roots of smallest magnitude, as many as needed to have `count` oscillating ones among them.
-
-    Args:
-        operators: of the thread.
-        count: how many pairs of conjugate roots.
-
-    Returns:
-        Of each pair the root above the real axis, and all real ones of smaller magnitude, by ascending magnitude; the
-        last one oscillates (collective).
-
-    Raises:
-        EigenSolverError: if there are not so many.
-    """
+    """The roots of smallest magnitude, as many as needed to have `count` oscillating ones among them."""
     pairs, last = _slowest(operators, count)
     return pairs[: last + 1]
 
@@ -71,16 +59,6 @@ def roots_near_zero(operators: ThreadOperators, count: int) -> NDArray[np.comple
     """The roots of `eigenpairs`, and those that were found beyond the last of them.
 
     On another mesh a real root may exceed the last oscillating one in magnitude, or fall below it.
-
-    Args:
-        operators: of the thread.
-        count: how many pairs of conjugate roots there are at least.
-
-    Returns:
-        λ in units of the operators, by ascending magnitude (collective).
-
-    Raises:
-        EigenSolverError: if there are not so many.
     """
     return np.array([pair.root for pair in _slowest(operators, count)[0]], dtype=np.complex128)
 
@@ -107,15 +85,7 @@ def is_oscillating(root: complex) -> bool:
 
 
 def stiffness_eigenvalues(operators: ThreadOperators, count: int) -> NDArray[np.float64]:
-    """Real κ of K y = κ M y nearest to zero: one of them changes its sign where the equilibrium diverges.
-
-    Args:
-        operators: of the thread.
-        count: how many are sought, complex ones among them.
-
-    Returns:
-        In ascending order, in 1/s² (collective).
-    """
+    """Real κ of K y = κ M y nearest to zero: one of them changes its sign where the equilibrium diverges."""
     solver = _linear_solver(operators, count)
     # Where all motions across a straight thread lose their stiffness at once, Lanczos' method breaks down, and the
     # inner product of a semidefinite M gives no further vectors.

@@ -72,33 +72,14 @@ class Equilibrium:
 
 
 def split_state(function: Any) -> ThreadState:
-    """The parts of a function, or of test functions, of the mixed space.
-
-    Args:
-        function: of the mixed space (r, S) or (r, S, κ).
-    """
+    """The parts of a function, or of test functions, of the mixed space."""
     return ThreadState(*ufl.split(function))
 
 
 def solve_on_mesh(
     comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, *, degree: int = 3
 ) -> Equilibrium:
-    """Solve the equations of the thread at rest on one mesh.
-
-    Args:
-        comm: communicator.
-        model: the thread, SI.
-        nodes: s of the nodes in m from 0 to the length, increasing; all points of `model.loads` are among them.
-        start: where Newton's method begins.
-        degree: of the positions.
-
-    Returns:
-        The equilibrium (collective). Neither its error nor compression of the thread is checked.
-
-    Raises:
-        ThreadSolverError: where Newton's method fails.
-        ValueError: where the nodes do not fit the thread.
-    """
+    """Solve the equations of the thread at rest on one mesh."""
     _check_nodes(model, nodes)
     units = natural_units(model, start, nodes)
     scaled = units.scaled(model)
@@ -133,16 +114,7 @@ def solve_on_mesh(
 
 
 def natural_units(model: Thread, start: Start, nodes: NDArray[np.float64]) -> Units:
-    """The thread's length, its characteristic tension, and the time in which the stream passes it.
-
-    Args:
-        model: the thread, SI.
-        start: approximate shape.
-        nodes: s at which to look, m.
-
-    Returns:
-        Units; the time is that of a transverse wave if the stream is at rest, and 1 s if there is no mass either.
-    """
+    """The thread's length, its characteristic tension, and the time in which the stream passes it."""
     speed = 0.0
     if model.stream is not None:
         speed = float(np.max(np.linalg.norm(model.stream.velocity_at(in_space(start.position(nodes))), axis=1)))
@@ -162,13 +134,7 @@ def in_space(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def interpolate_start(solution: Any, start: Start, units: Units) -> None:
-    """Give a function of the mixed space the values of a start.
-
-    Args:
-        solution: the function, in `units`.
-        start: SI.
-        units: of the solution.
-    """
+    """Give a function of the mixed space the values of a start."""
     parts: list[tuple[Along, float]] = [(start.position, units.length), (start.force, units.force)]
     if start.curvature is not None:
         parts.append((start.curvature, 1.0 / units.length))
@@ -177,15 +143,7 @@ def interpolate_start(solution: Any, start: Start, units: Units) -> None:
 
 
 def interpolate_part(function: Any, part: int, along: Along, *, length: float, unit: float) -> None:
-    """Interpolate values along a thread into one part of a function of the mixed space.
-
-    Args:
-        function: the function.
-        part: number of the part: positions, force or curvature.
-        along: values at s in m, shape (n,) or (n, dimension), SI.
-        length: unit of s, m.
-        unit: of the values.
-    """
+    """Interpolate values along a thread into one part of a function of the mixed space."""
     space, places = collapsed(function.function_space, part)
     own = fem.Function(space)
     own.interpolate(lambda x: np.atleast_2d(along(x[0] * length).T) / unit)
@@ -207,12 +165,7 @@ def _between_ends(model: Thread, start: Start) -> Start:
 
 
 def fixed_components(model: Thread, space: ThreadSpace) -> list[Any]:
-    """Boundary conditions: held components of the ends, and no curvature where an end that bends is not clamped.
-
-    Args:
-        model: the thread, in the units of the space.
-        space: its function spaces.
-    """
+    """Boundary conditions: held components of the ends, and no curvature where an end that bends is not clamped."""
     conditions = []
     space.mesh.topology.create_connectivity(0, 1)
     for tag, end in enumerate(model.ends, start=1):

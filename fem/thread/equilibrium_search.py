@@ -43,20 +43,7 @@ class FoundEquilibrium:
 
 
 def find_equilibrium(comm: MPI.Comm, thread: Thread, frame: Frame, tolerance: float) -> FoundEquilibrium:
-    """Solve for the equilibrium of a thread.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units, with a fixed end.
-        frame: coordinates of the solution.
-        tolerance: of positions, tensions, reactions and moments, relative; see `solve_thread`.
-
-    Returns:
-        The equilibrium in the coordinates of the frame (collective).
-
-    Raises:
-        NoEquilibriumError: if no start leads to a thread in tension, or a thread of given tension is not at rest.
-    """
+    """Solve for the equilibrium of a thread."""
     if thread.tension is not None:
         solution = solve_with_given_tension(comm, thread, frame)
         return FoundEquilibrium(solution=solution, start="its tension", failed=())

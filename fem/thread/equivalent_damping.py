@@ -30,7 +30,6 @@ class QuadraticDecay:
     """
 
     def __init__(self, operators: ThreadOperators) -> None:
-        """Compile the work of the load."""
         forms, space = operators.equilibrium.forms, operators.equilibrium.space
         if forms.stream is not None:
             raise ValueError("amplitude is given, but in a stream the drag damps linearly: leave it out")
@@ -43,15 +42,7 @@ class QuadraticDecay:
         self._work = compiled_form(work)
 
     def rate(self, pair: Eigenpair, amplitude: float) -> float:
-        """σ in 1/s.
-
-        Args:
-            pair: a motion without linear damping.
-            amplitude: largest displacement of a node, m.
-
-        Returns:
-            The rate (collective).
-        """
+        """σ in 1/s."""
         operators, equilibrium = self._operators, self._operators.equilibrium
         function = operators.function(pair.real)
         table = line_table(function, equilibrium.space.nodes, 0).at(equilibrium.space.nodes)

@@ -11,15 +11,8 @@ _STRETCH = 1e-6
 
 
 def force_scale(model: Thread, speed: float) -> float:
-    """The largest force that acts on a thread: |F| + k u² of a body, |w| L, (kn u + nv) u L, EI/L², ma u² if reactive.
-
-    Args:
-        model: the thread, in any consistent units.
-        speed: u, the largest of the liquid past the thread.
-
-    Returns:
-        The force; where nothing acts on the thread that which stretches it by a millionth, zero if it cannot stretch.
-    """
+    """The largest force that acts on a thread: |F| + k u² of a body, |w| L, (kn u + nv) u L, EI/L², ma u² if
+    reactive."""
     reactive = 0.0 if model.reactive == "none" else model.added_mass * speed**2
     largest = max(
         *(float(sum(part**2 for part in body.dead_force) ** 0.5) + body.drag * speed**2 for body in model.bodies),

@@ -62,7 +62,6 @@ class ThreadForms:
     """
 
     def __init__(self, model: Thread, space: ThreadSpace) -> None:
-        """Create the functions of loads, masses and clamps at nodes."""
         self.model, self.space = model, space
         self.stream = None
         if model.stream is not None and (model.drags or model.reactive != "none"):

@@ -84,8 +84,6 @@ class Frame:
 
 @dataclass(frozen=True)
 class _RotatedStream:
-    """A stream in the coordinates of a frame in space."""
-
     stream: Stream
     frame: Frame
 
@@ -108,13 +106,7 @@ class _RotatedStream:
 
 
 def choose_frame(thread: Thread, motions: Sequence[MotionRequest] = (), *, in_space: bool = False) -> Frame:
-    """Choose a vertical plane if it contains all loads and motions of a thread, else space.
-
-    Args:
-        thread: in space, with a fixed end.
-        motions: motions that will be solved in these coordinates.
-        in_space: whether motions out of the plane are required, as for modes.
-    """
+    """Choose a vertical plane if it contains all loads and motions of a thread, else space."""
     directions = [vector for vector in _horizontal(thread, motions) if hypot(*vector) > 0.0]
     longest = max(directions, key=lambda vector: hypot(*vector), default=(1.0, 0.0))
     size = hypot(*longest)

@@ -28,15 +28,7 @@ class IllPosedError(ValueError):
 
 
 def require_real_wave_speeds(equilibrium: Equilibrium) -> None:
-    """Refuse equilibria whose small motions are ill-posed.
-
-    Args:
-        equilibrium: about which the thread moves.
-
-    Raises:
-        IllPosedError: where the tension is too small for the stream along the thread, and nothing resists bending
-            (collective).
-    """
+    """Refuse equilibria whose small motions are ill-posed."""
     model, units = equilibrium.model, equilibrium.units
     if model.bends:
         return

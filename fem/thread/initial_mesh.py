@@ -27,13 +27,6 @@ def initial_nodes(model: Thread, start: Start) -> NDArray[np.float64]:
 
     A light end, of tension T under a load q per length, has a layer of thickness T/|q|; a thread that bends has one of
     thickness √(EI/T) where it is clamped, hinged or loaded. Elements grow with their distance from there.
-
-    Args:
-        model: the thread, SI.
-        start: approximate shape.
-
-    Returns:
-        s of the nodes, m.
     """
     length = model.length
     fixed = np.array([0.0, *sorted(model.loads), length])
@@ -47,7 +40,6 @@ def initial_nodes(model: Thread, start: Start) -> NDArray[np.float64]:
 
 
 def _halved(start: Start, layers: list[tuple[float, float]], first: float, last: float) -> list[float]:
-    """Second nodes of the elements that [first, last] is cut into."""
     size = min(thickness + max(first - s, s - last, 0.0) for s, thickness in layers)
     if last - first <= size * (1.0 + 1e-9) and _turn(start, first, last) <= _TURN:
         return [last]

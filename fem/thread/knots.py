@@ -24,16 +24,7 @@ _MOST = 300
 
 
 def knots_along(heights: tuple[float, ...], position: Along, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places at which a thread passes heights where a derivative of its stream jumps.
-
-    Args:
-        heights: of the kinks, m, increasing.
-        position: r by s, SI.
-        nodes: s of the nodes, m.
-
-    Returns:
-        s, m, increasing; none where there are too many.
-    """
+    """Places at which a thread passes heights where a derivative of its stream jumps."""
     breaks = np.array(heights, dtype=np.float64)
     if len(breaks) == 0:
         return breaks
@@ -61,13 +52,7 @@ def knots_along(heights: tuple[float, ...], position: Along, nodes: NDArray[np.f
 
 
 def at_knots(nodes: NDArray[np.float64], knots: NDArray[np.float64], kept: list[float]) -> NDArray[np.float64]:
-    """Nodes of which one is at each knot: the nearest one is moved, or one is added between two that are far.
-
-    Args:
-        nodes: s, m.
-        knots: s, m, increasing.
-        kept: s of nodes that stay, besides both ends.
-    """
+    """Nodes of which one is at each knot: the nearest one is moved, or one is added between two that are far."""
     fixed = [nodes[0], *kept, nodes[-1]]
     for knot in knots:
         index = int(np.argmin(np.abs(nodes - knot)))
@@ -85,5 +70,4 @@ def at_knots(nodes: NDArray[np.float64], knots: NDArray[np.float64], kept: list[
 
 
 def _size(nodes: NDArray[np.float64], index: int) -> float:
-    """Of the smaller element beside a node."""
     return float(np.min(np.diff(nodes[max(index - 1, 0) : index + 2])))

@@ -32,25 +32,8 @@ def modes_to_tolerance(
     *,
     velocity_damping: bool = True,
 ) -> ThreadModes:
-    """The slowest motions about an equilibrium, on meshes that are refined until their errors are within a tolerance.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units.
-        frame: coordinates of the solution.
-        rest: the equilibrium.
-        count: number of oscillating modes.
-        tolerance: of frequencies, relative.
-        velocity_damping: whether the change of drag with the velocity of the thread damps them.
-
-    Returns:
-        The modes (collective); the most accurate ones if the tolerance is not reached.
-
-    Raises:
-        IllPosedError: where they have no limit on finer meshes.
-        NoEquilibriumError: where a thread of given tension is not at rest.
-        EigenSolverError, ThreadSolverError: where the eigenvalue solver or another equilibrium fails.
-    """
+    """The slowest motions about an equilibrium, on meshes that are refined until their errors are within a
+    tolerance."""
     start, degree = start_from(rest.profile), rest.equilibrium.space.degree
 
     def refine(meshes: tuple[Equilibrium, Equilibrium], _found: ThreadModes) -> tuple[Equilibrium, Equilibrium]:
@@ -71,20 +54,7 @@ def modes_to_tolerance(
 def stability_in_growing_stream(
     comm: MPI.Comm, thread: Thread, frame: Frame, rest: ThreadSolution, factors: Sequence[float]
 ) -> Stability:
-    """Thresholds of divergence and flutter by the factor of the stream.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units.
-        frame: coordinates of the solution.
-        rest: the equilibrium in the stream of the thread.
-        factors: of the stream, increasing.
-
-    Raises:
-        IllPosedError: where the roots have no limit on finer meshes (collective).
-        NoEquilibriumError: where a thread of given tension is not at rest.
-        EigenSolverError, ThreadSolverError: where the eigenvalue solver or another equilibrium fails.
-    """
+    """Thresholds of divergence and flutter by the factor of the stream."""
     # Each equilibrium starts from the one before: the stream changes little.
     last = start_from(rest.profile)
 

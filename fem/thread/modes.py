@@ -100,24 +100,7 @@ def thread_modes(
     amplitude: float | None = None,
     ill_posed_too: bool = False,
 ) -> ThreadModes:
-    """The slowest motions of a thread about an equilibrium.
-
-    Args:
-        equilibrium: about which it moves.
-        coarser: the same on a coarser mesh, or of a lower degree; the difference of roots estimates the errors.
-        count: how many oscillating motions.
-        velocity_damping: whether forces in proportion to the velocity act; the stream enters K in both cases.
-        amplitude: largest displacement in each mode, m, for which the decay by quadratic drag is estimated.
-        ill_posed_too: solve on this mesh even where the roots do not converge as the mesh is refined.
-
-    Returns:
-        The motions (collective).
-
-    Raises:
-        EigenSolverError: if there are fewer on the meshes.
-        IllPosedError: where the thread is in compression, or too slack for the stream along it, and does not bend.
-        ValueError: if `count` is less than 1, nothing has a mass, or an amplitude is given in a stream.
-    """
+    """The slowest motions of a thread about an equilibrium."""
     if not ill_posed_too:
         require_real_wave_speeds(equilibrium)
     operators = thread_operators(equilibrium, velocity_damping=velocity_damping)
@@ -140,8 +123,6 @@ def thread_modes(
 
 
 class _Mode:
-    """Root, error, damping and shape of one eigenpair."""
-
     def __init__(
         self,
         operators: ThreadOperators,
@@ -196,7 +177,6 @@ def _shape(operators: ThreadOperators, pair: Eigenpair) -> NDArray[np.complex128
 
 
 def _along(operators: ThreadOperators, vector: PETSc.Vec, normal: NDArray[np.float64]) -> PETSc.Vec:
-    """Part of a motion in one direction."""
     function = operators.function(vector)
     _, places = collapsed(function.function_space, 0)
     displacement = function.x.array[places].reshape(-1, len(normal))

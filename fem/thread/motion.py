@@ -47,8 +47,6 @@ class InitialMotion:
 
 @dataclass
 class _TimedStream:
-    """A stream times a factor that changes in time."""
-
     stream: Stream
     factor: float = 1.0
 
@@ -89,23 +87,7 @@ def move_thread(
     *,
     degree: int = 2,
 ) -> ThreadMotion:
-    """Solve for the motion of a thread from given positions and velocities.
-
-    Args:
-        comm: communicator.
-        model: the thread, SI.
-        nodes: s of the nodes in m from 0 to the length, increasing; all points of `model.loads` are among them.
-        start: positions and velocities.
-        plan: what is asked.
-        degree: of the positions.
-
-    Returns:
-        The motion (collective).
-
-    Raises:
-        ValueError: where the plan does not fit the thread.
-        ThreadMotionError: where a step fails however short it is.
-    """
+    """Solve for the motion of a thread from given positions and velocities."""
     units = motion_units(model)
     space = ThreadSpace(comm, np.asarray(nodes / model.length, dtype=np.float64), degree, model.dimension, model.bends)
     integrator = _make_integrator(model, units, space, plan)
@@ -117,19 +99,7 @@ def move_thread(
 
 
 def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
-    """Solve for the motion of a thread from rest.
-
-    Args:
-        equilibrium: the thread at rest; the stream of its model may differ from that of the plan's factor.
-        plan: what is asked.
-
-    Returns:
-        The motion on the mesh of the equilibrium (collective).
-
-    Raises:
-        ValueError: where the plan does not fit the thread.
-        ThreadMotionError: where a step fails however short it is.
-    """
+    """Solve for the motion of a thread from rest."""
     model = equilibrium.model
     units = replace(equilibrium.units, time=motion_units(model).time)
     integrator = _make_integrator(model, units, equilibrium.space, plan)
@@ -187,8 +157,6 @@ def _fastest_stream(model: Thread, positions: NDArray[np.float64], velocities: N
 
 @dataclass
 class _Record:
-    """Results of all steps, in the units of the forms."""
-
     ends: list[float] = field(default_factory=list)
     energies: list[NDArray[np.float64]] = field(default_factory=list)
     work: list[NDArray[np.float64]] = field(default_factory=list)
@@ -270,7 +238,6 @@ class _Run:
         )
 
     def _worst(self, tensions: NDArray[np.float64]) -> str:
-        """The lowest tension and its place, in words."""
         place = float(self._integrator.forms.space.nodes[np.argmin(tensions)]) * self._length
         return f"{float(np.min(tensions)) * self._units.force:.4g} N at s = {place:.4g} m"
 
@@ -290,7 +257,6 @@ class _Run:
         return None
 
     def _next(self, stop: float) -> float:
-        """Length of the next step."""
         now, grid = self._integrator.time, self._plan.grid
         if grid is None:
             return self._control.next_length(stop - now)
@@ -298,7 +264,6 @@ class _Run:
         return min(stop, float(beyond[0]) / self._units.time if len(beyond) else stop) - now
 
     def _take(self, length: float) -> float:
-        """Take one step, shortened until its error is acceptable."""
         integrator, control, record = self._integrator, self._control, self._record
         while True:
             solutions = integrator.solve_step(length)

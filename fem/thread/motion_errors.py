@@ -69,13 +69,7 @@ def halved(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1) -> MotionDifference:
-    """Largest differences of two motions.
-
-    Args:
-        first: a motion.
-        second: one at the same times, up to where the shorter one ends.
-        every: which nodes of the second are those of the first.
-    """
+    """Largest differences of two motions."""
     count = min(len(first.times), len(second.times))
 
     def largest(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
@@ -90,16 +84,7 @@ def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1)
 
 
 def motion_with_errors(run: Run, plan: MotionPlan, *, mesh: bool = False) -> MotionWithErrors:
-    """Solve for a motion with steps as planned, with all of them halved and, if asked, on halved elements.
-
-    Args:
-        run: follows a plan on a mesh whose elements are cut in so many parts (collective).
-        plan: what is asked.
-        mesh: whether to estimate the error of the mesh as well.
-
-    Returns:
-        The motion of halved steps, with the differences (collective).
-    """
+    """Solve for a motion with steps as planned, with all of them halved and, if asked, on halved elements."""
     whole = run(plan, 1)
     grid = whole.history.ends
     finer = run(replace(plan, grid=halved(grid)), 1)

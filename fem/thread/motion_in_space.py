@@ -89,13 +89,7 @@ class MotionInSpace:
 
 
 def motion_in_space(frame: Frame, rest: ThreadSolution, found: MotionWithErrors) -> MotionInSpace:
-    """Return a measured motion in space, with its estimated errors.
-
-    Args:
-        frame: coordinates of the solution.
-        rest: the equilibrium.
-        found: the motion, with its difference by halved elements.
-    """
+    """Return a measured motion in space, with its estimated errors."""
     motion, history = found.motion, found.motion.history
     assert found.mesh is not None
     tensions = history.tensions

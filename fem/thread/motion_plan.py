@@ -76,7 +76,6 @@ class MotionPlan:
     tension_at_start: bool = False
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         times = np.asarray(self.times, dtype=np.float64)
         if times.ndim != 1 or len(times) < 2 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
             raise ValueError(f"times are {self.times}: at least two are needed, finite and increasing")
@@ -93,11 +92,7 @@ class MotionPlan:
             raise ValueError(f"rest_speed is {self.rest_speed}: it must be positive")
 
     def check(self, model: Thread) -> None:
-        """Check that the plan fits a thread.
-
-        Raises:
-            ValueError: with what does not fit.
-        """
+        """Check that the plan fits a thread."""
         if not model.mass > 0.0:
             raise ValueError(f"mass is {model.mass}: the motion of a thread needs a positive one, however small")
         if self.dissipation is not None and model.reactive == "lighthill":

@@ -41,23 +41,7 @@ _AIM = 0.5
 def motion_to_tolerance(
     comm: MPI.Comm, thread: Thread, frame: Frame, rest: ThreadSolution, request: MotionRequest, *, rest_tolerance: float
 ) -> MotionInSpace:
-    """Solve for a motion; halve steps and elements to estimate the errors, and refine until they are small enough.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units.
-        frame: coordinates of the solution.
-        rest: the equilibrium.
-        request: the request, with the tolerance.
-        rest_tolerance: relative, of an equilibrium in the liquid at rest from which the motion may start.
-
-    Returns:
-        The motion with the halved steps (collective); the most accurate one if none reaches the tolerance.
-
-    Raises:
-        NoEquilibriumError: if it starts from the equilibrium in the liquid at rest, and there is none.
-        ThreadMotionError, ThreadSolverError: where the motion cannot be followed.
-    """
+    """Solve for a motion; halve steps and elements to estimate the errors, and refine until they are small enough."""
     run = _run_from_start(comm, thread, frame, rest, request, rest_tolerance)
     allowed = request.tolerance * thread.length
 

@@ -98,14 +98,7 @@ SLACK = 1e-8
 def find_slack(
     times: NDArray[np.float64], nodes: NDArray[np.float64], tensions: NDArray[np.float64], force: float
 ) -> tuple[Slack, ...]:
-    """Find the times in which the lowest tension is below zero.
-
-    Args:
-        times: times, s, shape (n,).
-        nodes: arc lengths s, m, shape (nodes,).
-        tensions: tensions, N, shape (n, nodes).
-        force: a characteristic force, N.
-    """
+    """Find the times in which the lowest tension is below zero."""
     lowest = tensions.min(axis=1)
     loose = lowest < -SLACK * force
     changes = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]).astype(int)))
@@ -129,15 +122,6 @@ def at_step_ends(
 
     The midpoint rule leaves an error of the first order in forces of constraint whose sign changes from step to step:
     the mean of two neighbours is free of it, and belongs to the end between them.
-
-    Args:
-        ends: times of the ends of steps, s, shape (n + 1,).
-        middles: forces at the midpoints of the steps, N, shape (n, ...).
-        starts: by the number of an end, forces at the start and just after breaks, where they are known.
-        part: fraction of a step at which its forces act.
-
-    Returns:
-        Shape (n + 1, ...); where a piece ends, linear from the ends before.
     """
     count = len(middles)
     result = np.empty((count + 1, *middles.shape[1:]))

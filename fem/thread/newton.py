@@ -54,7 +54,6 @@ class NewtonSolver:
     def __init__(
         self, residual: Any, unknowns: Any, fixed: list[Any], update: Callable[[], None], disturbance: Any
     ) -> None:
-        """Compile the forms and make the matrix."""
         self._residual = compiled_form(residual)
         self._derivative = compiled_form(ufl.derivative(residual, unknowns))
         self._unknowns, self._fixed, self._update = unknowns, fixed, update
@@ -75,14 +74,7 @@ class NewtonSolver:
         self._length, self._is_known = 0.0, False
 
     def solve(self) -> int:
-        """Change w until F vanishes.
-
-        Returns:
-            Number of steps.
-
-        Raises:
-            ThreadSolverError: where the matrix is singular, or the steps do not come to an end.
-        """
+        """Change w until F vanishes."""
         place, value = self.jacobian.createVecs()
         place.array[:] = self._unknowns.x.array[: self._owned]
         self._length, self._is_known = 0.0, False
@@ -162,7 +154,6 @@ class NewtonSolver:
         return int(reasons.CONVERGED_FNORM_ABS if done else reasons.ITERATING)
 
     def _move(self, values: NDArray[np.float64]) -> None:
-        """Give w its values and find the residual there."""
         self._unknowns.x.array[: self._owned] = values
         self._unknowns.x.scatter_forward()
         self._update()
@@ -188,7 +179,6 @@ class NewtonSolver:
         return vector
 
     def _words(self, reason: int, count: int) -> str:
-        """Return the reason why SNES stopped."""
         reasons = PETSc.SNES.ConvergedReason
         if reason == reasons.DIVERGED_LINEAR_SOLVE or not np.isfinite(self._length):
             return f"the linear system of Newton's step {count + 1} is singular"

@@ -73,18 +73,7 @@ class ThreadOperators:
 
 
 def thread_operators(equilibrium: Equilibrium, *, velocity_damping: bool = True) -> ThreadOperators:
-    """Assemble the matrices (collective).
-
-    Args:
-        equilibrium: about which the thread moves. Where both ends of a straight thread that does not stretch are held,
-            its tension is that of the equilibrium and does not change.
-        velocity_damping: whether C contains the forces that depend on the thread's velocity; without it C is ``None``.
-            The drag of the
-            stream enters K in both cases.
-
-    Raises:
-        ValueError: if the thread has no mass.
-    """
+    """Assemble the matrices (collective)."""
     forms, space = equilibrium.forms, equilibrium.space
     time = _time_unit(equilibrium)
     if forms.stream is not None:

@@ -121,14 +121,7 @@ class ThreadProfile:
 
 
 def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
-    """Evaluate a thread at rest as tables in SI units.
-
-    Args:
-        equilibrium: the field solution.
-
-    Returns:
-        The tables, on all processes (collective).
-    """
+    """Evaluate a thread at rest as tables in SI units."""
     model, units, space = equilibrium.model, equilibrium.units, equilibrium.space
     nodes = space.nodes * units.length
     position = line_table(equilibrium.solution, nodes, 0).times(units.length)
@@ -156,11 +149,7 @@ def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
 
 
 def start_from(profile: ThreadProfile) -> Start:
-    """Return a start from a solution of the same thread.
-
-    Args:
-        profile: of that solution.
-    """
+    """Return a start from a solution of the same thread."""
     table, rigidity = profile.curvature_table, profile.model.flexural_rigidity
     if table is None:
         return Start(position=profile.position, force=profile.tension_at)
@@ -241,7 +230,6 @@ def _velocity(model: Thread, points: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _momentum(model: Thread, tangents: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64]:
-    """G, or ma W² τ of the moving load."""
     along = np.sum(velocity * tangents, axis=-1, keepdims=True)
     if model.reactive == "moving_load":
         return model.added_mass * along**2 * tangents
@@ -255,7 +243,6 @@ def _with_momentum(
     velocity: NDArray[np.float64],
     tangents: NDArray[np.float64] | None,
 ) -> NDArray[np.float64]:
-    """N of N − G."""
     if tangents is not None:
         return balance + _momentum(model, tangents / _size(tangents), velocity)
     force = balance

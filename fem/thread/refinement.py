@@ -89,24 +89,7 @@ class ThreadSolution:
 def solve_thread(
     comm: MPI.Comm, model: Thread, start: Start, *, tolerance: float = 1e-6, degree: int = 5
 ) -> ThreadSolution:
-    """Solve a thread at rest until positions, tensions, reactions and moments are within a tolerance.
-
-    Args:
-        comm: communicator.
-        model: the thread, SI.
-        start: where Newton's method begins.
-        tolerance: relative to length, largest contact force and largest moment; at least 1e-11.
-        degree: of the positions, at least 2.
-
-    Returns:
-        The solution; where rounding is above the tolerance, so are its errors (collective).
-
-    Raises:
-        CompressionError: where the solution has compression.
-        ThreadSolverError: where Newton's method fails, with growing drag or stiffness too, or the tolerance is out
-            of reach.
-        ValueError: where an argument is out of its range.
-    """
+    """Solve a thread at rest until positions, tensions, reactions and moments are within a tolerance."""
     if not 1e-11 <= tolerance <= 0.1:
         raise ValueError(f"tolerance is {tolerance}: it must be between 1e-11 and 0.1")
     if degree < 2:
@@ -217,8 +200,6 @@ _NOTHING = ThreadRounding(position=0.0, tension=0.0, reaction=0.0, moment=0.0)
 
 
 class _Comparison:
-    """Differences of a solution from that on halved elements."""
-
     def __init__(self, coarse: ThreadProfile, fine: ThreadProfile, characteristic: float) -> None:
         """Take the differences; `characteristic` is the characteristic tension, N."""
         self.coarse, self.fine = coarse, fine

@@ -64,13 +64,7 @@ class RestingThread:
 
 
 def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingThread:
-    """Return an equilibrium in space.
-
-    Args:
-        found: the equilibrium.
-        frame: coordinates of the solution.
-        s: arc lengths from end A, m, shape (positions,).
-    """
+    """Return an equilibrium in space."""
     profile, errors = found.solution.profile, found.solution.errors
     ends = profile.nodes[[0, -1]]
     smallest, place = profile.smallest_tension()

@@ -35,11 +35,7 @@ class ThreadRounding:
 
 
 def thread_rounding(equilibrium: Equilibrium) -> ThreadRounding:
-    """Rounding of a solution by Newton's method (collective).
-
-    Args:
-        equilibrium: the solution.
-    """
+    """Rounding of a solution by Newton's method (collective)."""
     space, units, response = equilibrium.space, equilibrium.units, equilibrium.stretch_response
     stretch = _stretch_unknown(equilibrium)
     position = line_table(response, space.nodes, 0)

@@ -47,7 +47,6 @@ class ThreadSpace:
     def __init__(
         self, comm: MPI.Comm, nodes: NDArray[np.float64], degree: int, dimension: int, bends: bool = False
     ) -> None:
-        """Make mesh and spaces."""
         self.nodes, self.degree, self.dimension, self.bends = nodes, degree, dimension, bends
         self.mesh = line_mesh(comm, nodes, ghosts=True)
         position = basix.ufl.element("Lagrange", "interval", degree, shape=(dimension,))
@@ -75,15 +74,7 @@ class ThreadSpace:
         return dolfinx_mesh.meshtags(self.mesh, 0, facets[order], values[order])
 
     def at_nodes(self, values: dict[float, Any], space: Any) -> Any:
-        """A linear function with given values at some nodes and zero at the others.
-
-        Args:
-            values: by s, which must be a node.
-            space: `scalars` or `vectors`.
-
-        Returns:
-            The function (collective).
-        """
+        """A linear function with given values at some nodes and zero at the others."""
         function = fem.Function(space)
         size = space.dofmap.bs
         places = space.tabulate_dof_coordinates()[:, 0]

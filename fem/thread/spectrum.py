@@ -40,7 +40,6 @@ class Spectrum:
     """
 
     def __init__(self, value: float, operators: ThreadOperators, count: int) -> None:
-        """Keep the matrices."""
         self.value = value
         self._operators, self._count = operators, count
 
@@ -96,19 +95,7 @@ class Spectrum:
 
 
 def spectrum_at(equilibrium_at: EquilibriumAt, value: float, count: int) -> Spectrum:
-    """Solve at one value of the parameter.
-
-    Args:
-        equilibrium_at: of the parameter.
-        value: of the parameter.
-        count: how many oscillating motions.
-
-    Returns:
-        The motions (collective).
-
-    Raises:
-        IllPosedError: as `thread_modes`.
-    """
+    """Solve at one value of the parameter."""
     equilibrium = equilibrium_at(value)
     require_real_wave_speeds(equilibrium)
     return Spectrum(value, thread_operators(equilibrium), count)
@@ -120,12 +107,6 @@ def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
     Each spectrum is matched with the extrapolation of the last two by the least sum of distances. A pair that meets the
     real axis continues as two real roots, which are equally far from both: that of positive imaginary part continues as
     the larger one, and the larger one as that of positive imaginary part.
-
-    Args:
-        spectra: by ascending values.
-
-    Returns:
-        λ, 1/s, shape (spectra, roots); NaN from where a root has left the slowest ones.
     """
     first = spectra[0].with_conjugates
     followed = np.full((len(spectra), len(first)), np.nan, dtype=np.complex128)

@@ -83,20 +83,6 @@ def stability(
     """Find the thresholds of stability between values of a parameter.
 
     A motion that grows only between two neighbouring values is not found.
-
-    Args:
-        equilibrium_at: the equilibrium by the parameter.
-        coarser_at: the same on a coarser mesh, or of a lower degree, to estimate errors.
-        values: of the parameter, ascending, at least two.
-        count: number of oscillating motions to compute, from the slowest.
-
-    Returns:
-        The sweep and its thresholds (collective).
-
-    Raises:
-        EigenSolverError: if there are fewer motions.
-        IllPosedError: if already the first two values are ill-posed.
-        ValueError: if `values` do not ascend.
     """
     values = np.asarray(values, dtype=np.float64)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
@@ -137,7 +123,6 @@ def _sweep(at: _At, values: NDArray[np.float64]) -> tuple[list[Spectrum], tuple[
 
 
 def _between(at: _At, coarse: _At, low: Spectrum, high: Spectrum) -> list[Threshold]:
-    """Find all thresholds between two spectra."""
     found = []
     for kind in _CHANGES:
         for start, end in _brackets(at, low, high, _CHANGES[kind], _HALVINGS):
@@ -169,7 +154,6 @@ def _different(thresholds: list[Threshold]) -> tuple[Threshold, ...]:
 def _brackets(
     at: _At, low: Spectrum, high: Spectrum, number: Callable[[Spectrum], int], halvings: int
 ) -> list[tuple[Spectrum, Spectrum]]:
-    """Return narrow intervals in which a count changes."""
     if number(low) == number(high):
         return []
     if halvings == 0:
@@ -246,7 +230,6 @@ def _divergence(low: Spectrum, high: Spectrum) -> _Change:
 
 
 def _flutter(low: Spectrum, high: Spectrum) -> _Change:
-    """The real part of a root, or (λ₁ − λ₂)² of two that meet."""
     fewer, more = (low, high) if len(low.growing_pairs) < len(high.growing_pairs) else (high, low)
     root = complex(max(more.growing_pairs, key=lambda pair: min(np.abs(fewer.growing_pairs - pair), default=np.inf)))
     mirrored = float(np.min(np.abs(more.with_conjugates + np.conj(root)))) < _MIRRORED * abs(root)

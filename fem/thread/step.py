@@ -122,7 +122,6 @@ class ThreadStep:
     """
 
     def __init__(self, forms: ThreadForms, *, conservative: bool, extra: ExtraLoad | None = None) -> None:
-        """Set up the equations."""
         self.forms, self.conservative = forms, conservative
         mixed = forms.space.mixed
         self.unknown, self.old_state, self.old_velocity, self.old_acceleration = (fem.Function(mixed) for _ in range(4))
@@ -168,14 +167,12 @@ class ThreadStep:
         return form + self._inertia() - self.liquid_work(test.position)
 
     def _axial(self) -> Any:
-        """The axial part of the contact force."""
         if not self.conservative:
             return self._force * _tangent(self.position.dx(0))
         lengths = _length(self._old[0].dx(0)) + _length(self._end.dx(0))
         return self._force * 2.0 * self.position.dx(0) / lengths
 
     def _inertia(self) -> Any:
-        """Inertia of the thread and of its bodies."""
         forms = self.forms
         own = forms.constant(forms.model.mass) * ufl.inner(self.acceleration, self._test.position)
         return own * forms.space.dx + forms.carried_inertia(self.acceleration, self._test.position)
@@ -198,12 +195,10 @@ class ThreadStep:
         return mass / self._step * ufl.inner(lag, test)
 
     def _lag(self, position: Any, velocity: Any) -> Any:
-        """v − u."""
         stream = self.forms.stream
         return velocity if stream is None else velocity - stream.along(position)
 
     def _kept(self) -> Any:
-        """Constraints of stretch and curvature at the end of the step."""
         forms, test = self.forms, self._test
         last = 2.0 * self._force - self._old[1]
         state = ThreadState(self._end, last, self._curvature)

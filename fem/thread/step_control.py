@@ -26,7 +26,6 @@ class StepControl:
     """
 
     def __init__(self, longest: float, tolerance: float | None) -> None:
-        """Start with the longest step, or a part of it if steps adapt."""
         self.longest, self.adaptive = longest, tolerance is not None
         self._tolerance = inf if tolerance is None else tolerance
         self._length, self._last_error = longest, inf

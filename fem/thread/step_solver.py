@@ -34,7 +34,6 @@ class HeldUnknowns:
     """
 
     def __init__(self, space: Any, held: list[tuple[int, int, NDArray[np.int32]]]) -> None:
-        """Find the numbers of the unknowns."""
         self.values = [fem.Constant(space.mesh, 0.0) for _ in held]
         self.conditions = []
         self.places = []
@@ -64,7 +63,6 @@ class StepSolver:
     """
 
     def __init__(self, residual: Any, unknown: Any, update: Callable[[], None]) -> None:
-        """Compile the forms, make the matrix."""
         self._residual = compiled_form(residual)
         self._derivative = compiled_form(ufl.derivative(residual, unknown))
         self._unknown, self._update = unknown, update
@@ -86,15 +84,7 @@ class StepSolver:
         self.solutions = 0
 
     def solve(self, held: HeldUnknowns, step: float) -> int | None:
-        """Change w until F vanishes.
-
-        Args:
-            held: prescribed unknowns.
-            step: factor that converts changes of the first part to lengths.
-
-        Returns:
-            Number of linear systems, nothing where the method did not converge (collective).
-        """
+        """Change w until F vanishes."""
         array = self._unknown.x.array
         held.set(array)
         self._assemble(held)

@@ -39,21 +39,7 @@ def straight_equilibrium(
     *,
     degree: int = 3,
 ) -> Equilibrium:
-    """A thread along the chord between the positions of its ends, r = r_A + s (r_B − r_A)/L.
-
-    Args:
-        comm: communicator.
-        model: a thread that does not stretch; the positions of both ends count, held or not, and are its length apart.
-        nodes: arc length s of the nodes, m, from 0 to the length, increasing, shape (nodes,).
-        tension: T, N: a constant, or T(s) with s in m where weight or friction changes it along the thread.
-        degree: polynomial degree.
-
-    Returns:
-        The equilibrium, its equations checked (collective).
-
-    Raises:
-        ValueError: if the thread stretches, its ends are not its length apart, or it is not in equilibrium.
-    """
+    """A thread along the chord between the positions of its ends, r = r_A + s (r_B − r_A)/L."""
     if np.isfinite(model.axial_rigidity):
         raise ValueError(
             f"axial_rigidity is {model.axial_rigidity:g}: the stretch of the thread tells the tension, which can be "
@@ -92,20 +78,7 @@ def straight_equilibrium(
 def equilibrium_on(
     comm: MPI.Comm, thread: Thread, frame: Frame, nodes: NDArray[np.float64], start: Start | None, degree: int
 ) -> Equilibrium:
-    """The equilibrium of a thread on one mesh, near a known one, or straight if its tension is given.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units.
-        frame: coordinates of the solution.
-        nodes: s of the nodes, m.
-        start: the known equilibrium; not needed where the tension is given.
-        degree: of the positions.
-
-    Raises:
-        ThreadSolverError: where Newton's method fails (collective).
-        NoEquilibriumError: where a thread of given tension is not at rest.
-    """
+    """The equilibrium of a thread on one mesh, near a known one, or straight if its tension is given."""
     model = frame.thread_in_frame(thread)
     if thread.tension is None:
         assert start is not None
@@ -132,19 +105,7 @@ def tension_along(thread: Thread) -> Callable[[NDArray[np.float64]], NDArray[np.
 
 
 def solve_with_given_tension(comm: MPI.Comm, thread: Thread, frame: Frame) -> ThreadSolution:
-    """The straight equilibrium of a thread whose tension is given.
-
-    Args:
-        comm: the processes.
-        thread: in space, SI units, with a tension.
-        frame: coordinates of the solution.
-
-    Returns:
-        The equilibrium, which every mesh represents up to rounding (collective).
-
-    Raises:
-        NoEquilibriumError: where weight or drag bend the thread.
-    """
+    """The straight equilibrium of a thread whose tension is given."""
     nodes: NDArray[np.float64] = np.linspace(0.0, thread.length, _ELEMENTS + 1, dtype=np.float64)
     found = equilibrium_on(comm, thread, frame, nodes, None, _DEGREE)
     force, moment = ROUNDING * found.units.force, ROUNDING * thread.flexural_rigidity / thread.length

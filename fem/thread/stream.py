@@ -57,7 +57,6 @@ class StreamField:
     """
 
     def __init__(self, mesh: Any, dimension: int, stream: Stream, quadrature_degree: int) -> None:
-        """Create the functions."""
         self.stream = stream
         rule, _ = basix.make_quadrature(basix.CellType.interval, quadrature_degree)
 
@@ -71,11 +70,7 @@ class StreamField:
         self._nodes = _Places(mesh, linear, (dimension,), np.array([[0.0], [1.0]]))
 
     def update(self, position: Any) -> None:
-        """Evaluate the stream at the position of the thread.
-
-        Args:
-            position: r, a function or expression of UFL.
-        """
+        """Evaluate the stream at the position of the thread."""
         self._cells.update(position, self.stream)
         self._nodes.update(position, self.stream)
 

@@ -28,15 +28,7 @@ class LineTable:
     values: NDArray[np.float64]
 
     def at(self, s: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
-        """Values, or derivatives by s; at nodes between elements those of the next element.
-
-        Args:
-            s: shape (m,).
-            derivative: order.
-
-        Returns:
-            Shape (m, components).
-        """
+        """Values, or derivatives by s; at nodes between elements those of the next element."""
         s = np.asarray(s, dtype=np.float64)
         cells = np.clip(np.searchsorted(self.nodes, s, side="right") - 1, 0, len(self.nodes) - 2)
         sizes = np.diff(self.nodes)[cells]
@@ -57,16 +49,7 @@ class LineTable:
 
 
 def line_table(function: Any, nodes: NDArray[np.float64], component: int | None = None) -> LineTable:
-    """Gather a function, or a part of one in a mixed space.
-
-    Args:
-        function: of dolfinx, in a Lagrange space on a mesh of intervals.
-        nodes: of the mesh, increasing.
-        component: which part of a mixed space.
-
-    Returns:
-        The table (collective).
-    """
+    """Gather a function, or a part of one in a mixed space."""
     space, places = function.function_space, None
     if component is not None:
         space, places = collapsed(space, component)
@@ -80,16 +63,7 @@ def line_table(function: Any, nodes: NDArray[np.float64], component: int | None 
 
 
 def gather_elements(mesh: Any, local: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values of all elements in order of s, points of an element in the order of s too if `points` are.
-
-    Args:
-        mesh: of intervals.
-        local: on the elements of this process, shape (own elements, points, components).
-        points: reference points, symmetric about 1/2, shape (points, 1).
-
-    Returns:
-        Shape (elements, points, components), on all processes (collective).
-    """
+    """Values of all elements in order of s, points of an element in the order of s too if `points` are."""
     ends = mesh.geometry.x[geometry_dofmap(mesh)[: len(local)], 0]
     backwards = ends[:, 0] > ends[:, 1]
     # The points in the order from the other end.

@@ -69,7 +69,6 @@ class TimeIntegrator:
         alpha: GeneralisedAlpha | None = None,
         shedding: SheddingLoad | None = None,
     ) -> None:
-        """Compile the forms."""
         self.forms, self._actions, self._alpha, self._shedding = forms, actions, alpha, shedding
         self.time = 0.0
         self.force_part = 0.5 if alpha is None else 1.0 - alpha.force_shift
@@ -96,7 +95,6 @@ class TimeIntegrator:
         return [fem.locate_dofs_topological(mixed.sub(0).sub(axis), 0, facets) for axis in range(self._dimension)]
 
     def _held_now(self) -> HeldUnknowns:
-        """Unknowns that are held just after the present time."""
         model = self.forms.model
         held, straight, self._prescribed = [], [], []
         for index, (end, prescribed) in enumerate(zip(model.ends, self._actions.ends, strict=True)):
@@ -126,7 +124,6 @@ class TimeIntegrator:
             self.forms.stream.update(self.step.position)
 
     def _apply_loads(self, time: float) -> None:
-        """Set prescribed forces and the stream at a time."""
         if self._actions.stream is not None:
             self._actions.set_stream(self._actions.stream(time))
         for index, prescribed in enumerate(self._actions.ends):
@@ -136,11 +133,7 @@ class TimeIntegrator:
                 self.forms.point_force.x.array.reshape(-1, self._dimension)[nodes] = prescribed.force(time)
 
     def project_positions(self) -> float | None:
-        """Move the positions to the nearest ones that satisfy the held ends and, if inextensible, |r_s| = 1.
-
-        Returns:
-            The largest change, ``None`` where there is no solution (collective).
-        """
+        """Move the positions to the nearest ones that satisfy the held ends and, if inextensible, |r_s| = 1."""
         self._prescribe(lambda position: position(self.time))
         before = self.step.old_state.x.array
         if self.forms.model.axial_rigidity < inf:
@@ -151,11 +144,7 @@ class TimeIntegrator:
         return self._replace(before, self.step.unknown.x.array)
 
     def project_velocities(self) -> float | None:
-        """Change the velocities, as by an impulse, to the nearest ones that the held ends and inextensibility allow.
-
-        Returns:
-            The largest change, ``None`` where the impulse has no solution (collective).
-        """
+        """Change the velocities, as by an impulse, to the nearest ones that the held ends and inextensibility allow."""
         self._prescribe(lambda position: _slope(position, self.time))
         if not self._consistent.project_velocities(self._held):
             return None
@@ -167,11 +156,7 @@ class TimeIntegrator:
         return float(self.forms.space.mesh.comm.allreduce(float(change), op=MPI.MAX))
 
     def solve_accelerations(self) -> NDArray[np.float64] | None:
-        """Solve for accelerations, axial force and curvature in the present state.
-
-        Returns:
-            Tension at the nodes, ``None`` where there is no solution (collective).
-        """
+        """Solve for accelerations, axial force and curvature in the present state."""
         self._held = self._held_now()
         self._apply_loads(self.time)
         self._prescribe(lambda position: _curvature(position, self.time))
@@ -187,9 +172,6 @@ class TimeIntegrator:
         """Tension at the nodes in the present state if the thread were inextensible.
 
         An extensible thread that starts with its unstretched length initially has no tension.
-
-        Returns:
-            Shape (nodes,), ``None`` where there is no solution (collective).
         """
         self._held = self._held_now()
         self._apply_loads(self.time)
@@ -200,14 +182,7 @@ class TimeIntegrator:
         self.step.old_acceleration.x.array[self._places] = values[self._places]
 
     def solve_step(self, length: float) -> int | None:
-        """Solve the equations of a step from the present state.
-
-        Args:
-            length: of the step.
-
-        Returns:
-            Number of linear systems solved, ``None`` where Newton's method fails (collective).
-        """
+        """Solve the equations of a step from the present state."""
         alpha = self._alpha
         weights = midpoint_weights(length) if alpha is None else alpha.weights(length)
         self.step.set_weights(weights, length)
@@ -227,12 +202,7 @@ class TimeIntegrator:
         return solutions
 
     def local_error(self, length: float, rate_age: float) -> float:
-        """Error of positions that the step adds, Δt³ |r_ttt|/12, by the change of the acceleration (collective).
-
-        Args:
-            length: length Δt of the step, dimensionless.
-            rate_age: dimensionless time from the known acceleration to the beginning of the step.
-        """
+        """Error of positions that the step adds, Δt³ |r_ttt|/12, by the change of the acceleration (collective)."""
         change = np.max(np.abs(self._new_rate(length) - self.step.old_acceleration.x.array)[self._places], initial=0.0)
         # Between midpoints of steps with the midpoint rule, between their ends with generalised α.
         between = rate_age + 0.5 * length if self._alpha is None else length
@@ -339,14 +309,12 @@ def _combine(weights: tuple[float, ...], values: tuple[NDArray[np.float64], ...]
 
 
 def _slope(function: Callable[[float], float], time: float) -> float:
-    """First derivative just after a time."""
     h = _DIFFERENCE
     values = [function(time + index * h) for index in range(5)]
     return float(np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], values)) / (12.0 * h)
 
 
 def _curvature(function: Callable[[float], float], time: float) -> float:
-    """Second derivative just after a time."""
     h = 10.0 * _DIFFERENCE
     values = [function(time + index * h) for index in range(4)]
     return float(np.dot([2.0, -5.0, 4.0, -1.0], values)) / h**2

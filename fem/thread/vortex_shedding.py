@@ -28,7 +28,6 @@ class SheddingLoad:
     """
 
     def __init__(self, forms: ThreadForms, shedding: VortexShedding) -> None:
-        """Set all path lengths to zero."""
         mesh, degree = forms.space.mesh, forms.space.quadrature_degree
         self._forms, self._shedding = forms, shedding
         element = basix.ufl.quadrature_element("interval", degree=degree)

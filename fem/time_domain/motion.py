@@ -84,10 +84,6 @@ class MovingBodies:
 
         With Z ξ = f an error of the hydrodynamics leaves |Z⁻¹| (|δf| + ω² |δH| |ξ|): near a resonance it grows as the
         motion does.
-
-        Args:
-            waves: the waves' forces.
-            error: of the forces relative to them, and of H = a + i b/ω relative to √(HᵢᵢHⱼⱼ).
         """
         impedance = self._impedance(waves)
         radiated = self.memory.infinite_frequency_added_mass + 1j * (
@@ -124,20 +120,7 @@ class MovingBodies:
     def motion(
         self, waves: WaveForces, times: Floats, tolerance: float, initial: Floats | None = None
     ) -> tuple[Floats, Floats]:
-        """Integrate from rest at t = 0, the water at rest too.
-
-        Args:
-            waves: the waves' forces.
-            times: times t ≥ 0 in ascending order, s, shape (t,).
-            tolerance: error of each step relative to the motion.
-            initial: displacement at t = 0, shape (m,); by default none.
-
-        Returns:
-            Displacements and velocities, each of shape (t, m).
-
-        Raises:
-            UnsolvedMotionError: if the motion grows without bound.
-        """
+        """Integrate from rest at t = 0, the water at rest too."""
         matrix, inverse = self._system(self._highest(waves))
         count = len(self.inertia)
         velocity, drag = slice(count, 2 * count), self.outside.drag
@@ -174,7 +157,6 @@ class MovingBodies:
         return found.y[:count].T, found.y[velocity].T
 
     def _highest(self, waves: WaveForces) -> float:
-        """The highest frequency of waves and bodies, rad/s."""
         mass = self.inertia + self.memory.infinite_frequency_added_mass
         stiffness = self.stiffness + self.outside.stiffness
         natural = np.sqrt(np.abs(np.linalg.eigvals(np.linalg.solve(mass, stiffness))).max())
@@ -206,5 +188,4 @@ class MovingBodies:
 
 
 def _moved(impedance: Complexes, forces: Complexes) -> Complexes:
-    """Motions by forces, shape (n, m)."""
     return np.asarray(np.linalg.solve(impedance, forces[..., None])[..., 0], dtype=complex)

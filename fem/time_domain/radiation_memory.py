@@ -165,13 +165,6 @@ class RadiationMemory:
         further exponentials, by least squares.
 
         Each of these is weighed by its error, and weights far above K(0), which would cancel each other, cost as much.
-
-        Args:
-            omega: frequencies, rad/s, shape (n,).
-            hydrodynamic: H = a + i b/ω there, shape (n, m, m).
-            rates: p of the exponentials, 1/s, shape (k,).
-            tail: K(0), and b beyond the last frequency.
-            errors: of H in the fit, relative to H at each frequency, and of a∞.
         """
         unit, count = tail.highest, len(rates)
         beyond = unit * _BEYOND
@@ -223,15 +216,7 @@ def damping_tail(
     *,
     has_peaks: bool,
 ) -> DampingTail:
-    """Return B beyond the highest frequency.
-
-    Args:
-        hydrodynamic: H, shape (n, m, m), at complex ω, rad/s, shape (n,) (collective).
-        highest: Ω, rad/s.
-        negligible: K(0) that is none, shape (m,).
-        least_powers: q of the hulls, shape (m,).
-        has_peaks: whether resonances of the water go on beyond Ω.
-    """
+    """Return B beyond the highest frequency."""
     nodes, gauss = np.polynomial.legendre.leggauss(_POINTS)
     places = 0.5 * (nodes + 1.0)
     angles, weights = 0.5 * pi * places**2, 0.5 * pi * places * gauss
@@ -271,14 +256,7 @@ def damping_tail(
 
 
 def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floats:
-    """|p| of the nodes of a ray.
-
-    Args:
-        lowest: smallest |p|.
-        highest: largest |p|.
-        angle: δ, rad, between the ray and the imaginary axis, and between it and the next singularity.
-        error: relative error e^{−2πδ/h} of the trapezoidal rule.
-    """
+    """|p| of the nodes of a ray."""
     step = -2.0 * pi * angle / np.log(error)
     radii: Floats = np.exp(np.arange(np.log(lowest), np.log(highest), step))
     return radii
@@ -287,16 +265,7 @@ def ray_radii(lowest: float, highest: float, angle: float, error: float) -> Floa
 def memory_on_ray(
     beyond_limit: Complexes, limit: Floats, radii: Floats, angle: float, *, poles: Complexes, residues: Complexes
 ) -> RadiationMemory:
-    """Return the memory of H along a ray, up to its end.
-
-    Args:
-        beyond_limit: H − a∞ at ω = |p| e^{−iδ}, shape (k, m, m).
-        limit: a∞, shape (m, m).
-        radii: |p|, 1/s, from `ray_radii`, shape (k,).
-        angle: δ, rad.
-        poles: p of the resonances of the water between the imaginary axis and the ray, Im p > 0, shape (r,).
-        residues: twice the residues of K̂ there, shape (r, m, m).
-    """
+    """Return the memory of H along a ray, up to its end."""
     rates = radii * np.exp(1j * (0.5 * pi + angle))
     step = np.log(radii[1] / radii[0])
     # H at the conjugate of p = −iω is that at −ω̄.

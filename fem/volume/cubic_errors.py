@@ -43,17 +43,7 @@ _MIDDLE = np.full((1, 3), 0.25)
 def cubic_errors(
     pencil: CoupledPencil[LiquidSpace], plates: tuple[PlanPlate, ...], modes: list[Mode]
 ) -> NDArray[np.float64]:
-    """Estimate (λ₂ − λ)/λ of modes at unit generalized mass, cell by cell.
-
-    Args:
-        pencil: the problem of the second degree.
-        plates: of the problem, which are its first bodies.
-        modes: some of its modes.
-
-    Returns:
-        The part of each owned cell, shape (modes, cells); their sum over cells and processes is the estimate
-        (collective).
-    """
+    """Estimate (λ₂ − λ)/λ of modes at unit generalized mass, cell by cell."""
     quadratic = pencil.liquid
     tank = quadratic.tank
     cubic = liquid_space(tank, DEGREE + 1, quadratic.zero_potential)

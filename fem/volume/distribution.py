@@ -34,19 +34,8 @@ def distributed_volume(
     comm: MPI.Comm,
     require: Callable[[NodedMesh, int], None] = lambda _mesh, _refinements: None,
 ) -> tuple[TankMesh, float]:
-    """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls (collective).
-
-    Args:
-        tank: the tank.
-        sizes: of the cells.
-        mirrors: x and y of planes of symmetry.
-        comm: the processes.
-        require: is called on the first process with the mesh of gmsh and how often it will be refined, and may refuse
-            it by a MeshError.
-
-    Raises:
-        MeshError: if the volume cannot be meshed.
-    """
+    """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls
+    (collective)."""
     made: VolumeMesh | MeshError | None = None
     if comm.rank == 0:
         try:
@@ -102,11 +91,7 @@ def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> V
 
 def _shaped(tank: VolumeTank, mesh: Mesh, volume: float) -> tuple[float, float]:
     """Move the nodes over a bed through points, as in a mesh that is not refined; return the exact volume and that of
-    the mesh.
-
-    Raises:
-        FoldedError: if a cell is inverted.
-    """
+    the mesh."""
     own = _of_process(mesh)
     if isinstance(tank.bed, SurveyedBed):
         bed = depth_over(tank)
@@ -122,7 +107,6 @@ def _shaped(tank: VolumeTank, mesh: Mesh, volume: float) -> tuple[float, float]:
 
 
 def _of_process(mesh: Mesh) -> NodedMesh:
-    """The cells of this process as arrays, without groups."""
     return NodedMesh(
         cell="tetrahedron",
         degree=coordinate_degree(mesh),

@@ -63,16 +63,7 @@ def volume_modes(
     solver_of: SolverOf,
     report: Report = lambda _message: None,
 ) -> ClassModes:
-    """Return the lowest modes of all classes (collective).
-
-    Args:
-        model: the tank in its resolution, of bodies without growing motions.
-        pencils: the problem of each class that has unknowns.
-        count: number of modes; fewer are returned if the model has fewer.
-        tolerance: largest relative error of frequencies that is accepted.
-        solver_of: makes the solver of Laplace's equation in the coarser space.
-        report: receives messages on the progress.
-    """
+    """Return the lowest modes of all classes (collective)."""
     report("modes of the coarser space")
     coarser = replace(model, resolution=replace(model.resolution, degree=model.resolution.degree // 2))
     coarse = _CoarserModes({one: own for one, own in coarser.pencils(solver_of).items() if one in pencils})

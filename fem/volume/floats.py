@@ -28,13 +28,7 @@ _ODD: dict[RigidMotion, tuple[int, int]] = {
 
 
 def float_body(solid: SolidFloat, name: str, parity: ClassParity) -> Body:
-    """Return a dimensionless float in its motions of one symmetry.
-
-    Args:
-        solid: the float, in the middle of the axes with a symmetry.
-        name: of its wetted surface.
-        parity: even (0) or odd (1) about the mirror planes.
-    """
+    """Return a dimensionless float in its motions of one symmetry."""
     chosen = [
         place
         for place, motion in enumerate(solid.motions)

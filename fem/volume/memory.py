@@ -29,13 +29,6 @@ def memory_needed(unknowns: int, degree: int, modes: int, *, problems: int = 1, 
     It holds the solvers of all problems. Multigrid is joined by factorizations of the coarser space in which modes are
     sought first, and then of a matrix in which they are counted; those take no more than what a factorization of all
     unknowns has given back.
-
-    Args:
-        unknowns: of ψ.
-        degree: of ψ.
-        modes: number of modes.
-        problems: those of the symmetries.
-        factorized: whether Laplace's equation is factorized at any size.
     """
     alone = problems * _of_solver(unknowns, degree, factorized)
     later = 0.0

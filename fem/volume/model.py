@@ -57,7 +57,6 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
 
 
 def _is_in_plane(solid: SolidFloat, axis: int, middle: float) -> bool:
-    """Whether a plane divides a float into halves that are alike."""
     alike = solid.hull is None or solid.hull.symmetric[axis]
     return alike and abs(solid.position[axis] - middle) < _MIDDLE
 

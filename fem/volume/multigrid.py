@@ -57,15 +57,7 @@ class MultigridSolver:
         *,
         tolerance: float,
     ) -> None:
-        """Set up all levels (collective).
-
-        Args:
-            liquid: space of ψ.
-            matrix: A on all unknowns; it is not changed.
-            closed: the layers of constant volume.
-            images: the factor of A to ∫∇ψ·∇q.
-            tolerance: of the solution, relative, in the energy norm.
-        """
+        """Set up all levels (collective)."""
         self.solves, self.iterations = 0, 0
         self._closed = closed
         self._comm = matrix.comm.tompi4py()
@@ -140,11 +132,7 @@ class MultigridSolver:
         return matrix
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
-        """See `LiquidOperator.solve`.
-
-        Raises:
-            EigenSolverError: if the iteration does not converge.
-        """
+        """See `LiquidOperator.solve`."""
         values = load.array_r.copy()
         for layer in self._closed:
             values[layer.dofs] -= self._sum(values[layer.dofs].sum()) / layer.measure * layer.load

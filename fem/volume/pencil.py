@@ -29,12 +29,7 @@ SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], Liqu
 
 def moving_surfaces(liquid: LiquidSpace, *, waves: bool) -> tuple[LiquidSurface, ...]:
     """Return the surfaces that move under gravity: water beside the bodies, of each part of the liquid, and the
-    interface of two liquids (collective).
-
-    Args:
-        liquid: space of ψ.
-        waves: whether the water moves.
-    """
+    interface of two liquids (collective)."""
     names = liquid.tank.facet_names
     found = []
     layers = [layer.name for layer in liquid.layers]
@@ -60,17 +55,7 @@ def volume_pencil(
     surfaces: tuple[LiquidSurface, ...],
     images: int = 1,
 ) -> CoupledPencil[LiquidSpace] | None:
-    """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective).
-
-    Args:
-        liquid: space of ψ.
-        matrices: see `volume_matrices`.
-        plates: those on the still surface.
-        floats: those with draught, after them.
-        solver_of: makes the solver of Laplace's equation.
-        surfaces: those that move under gravity, see `moving_surfaces`.
-        images: number of parts that are alike.
-    """
+    """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective)."""
     moving = [plate for plate in plates if plate.body.size]
     rigid = [body for body in floats if body.size]
     bodies = (*(plate.body for plate in moving), *rigid)

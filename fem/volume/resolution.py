@@ -203,15 +203,6 @@ def volume_resolution(
     Where these would be too many for a factorization, cells are alike in all directions, of degree 4, and of 6 for
     small errors; and where those of degree 2 then cost less, because edges and not waves ask for small cells or the
     error may be large, it is degree 2. Baffles, an interface and cells of a file keep the higher one.
-
-    Args:
-        tank: the tank.
-        tolerance: largest relative error of the frequencies that is accepted.
-        count: number of modes.
-        mirrors: x and y of planes of symmetry.
-        severity: error at singular edges over that of the measured constants; by default it is not known, and a mild
-            one is assumed where that costs little beside what a usual one would: `next_resolution` then knows it.
-        times: unknowns of an earlier mesh over those expected, if these were many more.
     """
     if severity is None:
         mild, usual = (volume_resolution(tank, tolerance, count, mirrors, severity=one) for one in (_MILD, 1.0))
@@ -334,5 +325,4 @@ def expected_unknowns(tank: VolumeTank, resolution: VolumeResolution, mirrors: M
 
 
 def _is_of_mesh(tank: VolumeTank) -> bool:
-    """Whether the cells are those of a file."""
     return isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh"

@@ -53,12 +53,7 @@ class SurfaceSample:
 
 
 def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> SurfaceSample | None:
-    """Sample modes on the still surface; ``None`` on other ranks than 0 (collective).
-
-    Args:
-        modes: the modes.
-        names: surfaces of the plates, in their order.
-    """
+    """Sample modes on the still surface; ``None`` on other ranks than 0 (collective)."""
     model = problem_of(modes[0]).model
     liquid = model.liquid
     functions = as_functions(liquid, [one.mode.potential for one in modes])
@@ -187,13 +182,7 @@ def volume_sample(modes: tuple[LevelMode, ...]) -> tuple[FloatArray, NDArray[np.
 
 
 def _merged(points: FloatArray, pitch: float, values: FloatArray | None) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The first of each set of points in one cell of a lattice, and the number of each point among them.
-
-    Args:
-        points: shape (n, dim).
-        pitch: of the lattice.
-        values: of each mode at them, shape (modes, n), where points with other values are others; ``None`` elsewhere.
-    """
+    """The first of each set of points in one cell of a lattice, and the number of each point among them."""
     keys = points / pitch
     if values is not None:
         largest = np.abs(values).max(axis=1, keepdims=True) + np.finfo(float).tiny

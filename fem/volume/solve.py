@@ -121,19 +121,7 @@ def solve_volume(
     comm: MPI.Comm | None = None,
     report: Report = lambda _message: None,
 ) -> VolumeSolution:
-    """Solve a dimensionless tank on its volume (collective).
-
-    Args:
-        tank: the tank.
-        tolerance: largest relative error of the frequencies that is accepted.
-        count: number of modes, from the lowest.
-        comm: the processes over which the mesh is distributed; all by default.
-        report: receives messages on the progress.
-
-    Raises:
-        MeshError: if the volume cannot be meshed.
-        TooLargeError: if the first resolution does not fit into memory.
-    """
+    """Solve a dimensionless tank on its volume (collective)."""
     processes = comm or MPI.COMM_WORLD
     mirrors, attempts = volume_mirrors(tank), numbered(1)
 
@@ -253,11 +241,7 @@ def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeRe
 
 
 def require_memory(unknowns: int, degree: int, modes: int, *, problems: int = 1, factorized: bool = False) -> None:
-    """Refuse a problem that does not fit into the memory of this process's computer.
-
-    Raises:
-        TooLargeError: with what is needed and what there is.
-    """
+    """Refuse a problem that does not fit into the memory of this process's computer."""
     needed = memory_needed(unknowns, degree, modes, problems=problems, factorized=factorized)
     free = free_memory()
     if free is not None and needed > free:
@@ -276,16 +260,7 @@ def direct_or_multigrid(
     tolerance: float,
     largest: int = DIRECT_UNKNOWNS,
 ) -> LiquidOperator:
-    """A factorization of small problems, multigrid of large ones (collective).
-
-    Args:
-        liquid: space of ψ.
-        laplace: A.
-        closed: the layers of constant volume.
-        images: number of parts that are alike, whose energies A has.
-        tolerance: of the frequencies.
-        largest: number of unknowns that are factorized.
-    """
+    """A factorization of small problems, multigrid of large ones (collective)."""
     if liquid.size <= largest:
         return LiquidSolver(laplace, constrained_dofs(liquid), closed)
     return MultigridSolver(liquid, laplace, closed, images, tolerance=_INNER * tolerance)
@@ -294,7 +269,6 @@ def direct_or_multigrid(
 def _no_solver(
     _liquid: LiquidSpace, _laplace: PETSc.Mat, _closed: tuple[ClosedLayer, ...], _images: int
 ) -> LiquidOperator:
-    """Of a problem that is only counted in."""
     return _Unused()
 
 

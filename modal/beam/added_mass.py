@@ -34,9 +34,6 @@ def lid_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     Returns:
         Added mass per length for ∫W² dz = l, kg/m².
 
-    Raises:
-        ValueError: for heave, whose volume has nowhere to go.
-
     Source: theory of the aquarium, docs, § 2 (lid).
     """
     if index == 0:
@@ -150,9 +147,6 @@ def shallow_constant(index: int = 2) -> float:
 
     Returns:
         The dimensionless constant.
-
-    Raises:
-        ValueError: for the rigid shapes.
 
     Source: theory of the aquarium, docs, § 2 (shallow).
     """

@@ -36,9 +36,6 @@ def free_free_roots(count: int) -> FloatArray:
     Returns:
         The dimensionless roots κ_j l, shape (count,).
 
-    Raises:
-        ValueError: if ``count`` is negative.
-
     Source: the frequency equation of the free-free Euler–Bernoulli beam; 1/cosh is used instead of
     cosh, so nothing overflows.
     """
@@ -56,9 +53,6 @@ def free_free_wavenumber(index: int) -> float:
 
     Returns:
         The dimensionless wavenumber κ_j l, j = index − 1.
-
-    Raises:
-        ValueError: if ``index`` is negative.
     """
     _check_index(index)
     if index < RIGID_SHAPES:
@@ -89,9 +83,6 @@ def free_free_shape(index: int, s: npt.ArrayLike | SupportsFloat, derivative: in
 
     Returns:
         The values, with the shape of ``s``.
-
-    Raises:
-        ValueError: if the index is negative, the order is not 0 … 3, or some s leaves [0, 1].
 
     Source: any text on beam vibration; theory of the aquarium, docs, § 1.2.
     """
@@ -127,7 +118,6 @@ def _rigid_shape(index: int, s: FloatArray, derivative: int) -> FloatArray:
 
 
 def _elastic_shapes(numbers: npt.NDArray[np.int64], s: FloatArray, derivative: int) -> FloatArray:
-    """Elastic shapes j, shape (numbers, positions)."""
     parity = np.where(numbers % 2 == 1, 1.0, -1.0)[:, None]
     far_half = s > 0.5
     near = np.where(far_half, 1 - s, s)

@@ -36,9 +36,6 @@ def all_estimates(beam: FloatingBeam, terms: int = 32) -> dict[str, Estimate]:
         ``grammel_n``, ``grammel_quotient``, ``rayleigh`` (heave, pitch, dry mode 1, free surface),
         ``rayleigh_dry_mode``, ``rayleigh_lid``, ``rayleigh_pressure_release``, ``deep_water``, ``strip``,
         ``shallow``, ``paper_no_volume_term``.
-
-    Raises:
-        ValueError: if ``terms`` is below 1.
     """
     if terms < 1:
         raise ValueError(f"terms is {terms}; at least one cosine is needed")

@@ -43,7 +43,6 @@ class FloatingBeam:
     hydrostatic: bool
 
     def __post_init__(self) -> None:
-        """Refuse what no tank can be."""
         wrong = [
             name
             for name in (

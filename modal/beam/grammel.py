@@ -72,9 +72,6 @@ def quotients(stiffness: FloatArray, mass: FloatArray, trials: FloatArray) -> Qu
     Returns:
         The pair, ascending.
 
-    Raises:
-        numpy.linalg.LinAlgError: if K is singular (condense rigid motions first) or M not positive definite.
-
     Source: theory of the aquarium, docs, § 2 ("The classical Grammel quotient").
     """
     f = trials.reshape(len(stiffness), -1)
@@ -100,9 +97,6 @@ def beam_quotients(beam: FloatingBeam, shapes: int = _SHAPES) -> BeamQuotients:
 
     Returns:
         The pair, the exact value of the space, and which tone it is.
-
-    Raises:
-        NoEstimateError: as `pressure_release_added_mass`, or if the stiffnesses span more than double precision holds.
 
     Source: theory of the aquarium, docs, § 2.
     """

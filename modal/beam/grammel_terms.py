@@ -31,9 +31,6 @@ def one_term_root(beam: FloatingBeam, number: int) -> float:
     Returns:
         Angular frequency, rad/s.
 
-    Raises:
-        ValueError: if ``number`` is below 1.
-
     Source: the one-term formula of the paper, corrected; theory of the aquarium, docs, § 1.2.
     """
     if number < 1:
@@ -90,9 +87,6 @@ def term_tones(beam: FloatingBeam, terms: int, *, volume_term: bool = True) -> T
 
     Returns:
         The tones, λ in rad²/s².
-
-    Raises:
-        ValueError: if ``terms`` is below 1.
 
     Source: the N-term form of the paper's method; theory of the aquarium, docs, § 1.2.
     """

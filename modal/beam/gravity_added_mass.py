@@ -81,10 +81,6 @@ def gravity_added_mass(
     Returns:
         Added mass per length, kg/m², shape (shapes, shapes), symmetric.
 
-    Raises:
-        ValueError: if λ is not positive, or if nothing of the surface is free and a shape displaces volume.
-        NoEstimateError: if the waves are too short, or the water too shallow, for the dense matrices.
-
     Source: theory of the aquarium, docs, § 2 ("gravity F at given lam").
     """
     if squared_frequency <= 0:
@@ -119,9 +115,6 @@ def gravity_tones(beam: FloatingBeam, indices: tuple[int, ...], squared_frequenc
 
     Returns:
         The tones, λ in rad²/s².
-
-    Raises:
-        NoEstimateError: if the waves are too short, or the water too shallow, for the dense matrices.
 
     Source: theory of the aquarium, docs, § 0 (energy form) and § 2 (`gravity`, `gravity_rigid`).
     """

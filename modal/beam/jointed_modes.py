@@ -86,9 +86,6 @@ class JointedModes:
 
         Returns:
             The values, shape (modes, points).
-
-        Raises:
-            ValueError: if the order is not 0 … 3, or some x leaves the beam.
         """
         if derivative not in (0, 1, 2, 3):
             raise ValueError(f"derivative is {derivative}; orders 0, 1, 2 and 3 are available")
@@ -141,9 +138,6 @@ def jointed_modes(beam: Beam, count: int) -> JointedModes:
     Returns:
         The modes; frequencies and shapes keep about 1e-16 times the ratio of the highest to the lowest frequency.
 
-    Raises:
-        ValueError: if ``count`` is negative.
-
     Source: Euler–Bernoulli beams with jumps of EI, m and, at springs, of the slope; the Ritz method in complete
     polynomials of each span.
     """
@@ -172,8 +166,6 @@ def jointed_modes(beam: Beam, count: int) -> JointedModes:
 
 
 def _mirrored(modes: JointedModes, beam: Beam) -> JointedModes:
-    """The modes of the beam seen from the other side."""
-
     def turned(tables: tuple[FloatArray, ...]) -> tuple[FloatArray, ...]:
         return tuple(table * (-1.0) ** np.arange(table.shape[1]) for table in reversed(tables))
 

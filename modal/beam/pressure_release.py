@@ -46,10 +46,6 @@ def pressure_release_added_mass(
     Returns:
         Added mass per length for ∫W² dz = l, kg/m², shape (count, count), symmetric positive definite.
 
-    Raises:
-        NoEstimateError: if the beam covers the tank, or a gap or the depth is so small against the beam that more than
-            ``most`` terms would be needed.
-
     Source: theory of the aquarium, docs, § 2 (psi0) and § 3 (method D).
     """
     if beam.covers_tank:

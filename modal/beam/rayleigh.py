@@ -102,9 +102,6 @@ def pressure_release_tones(beam: FloatingBeam, count: int) -> Tones:
 
     Returns:
         The tones, λ in rad²/s².
-
-    Raises:
-        NoEstimateError: as `pressure_release_added_mass`.
     """
     stiffness = beam.dry_stiffnesses(count)
     mass = pressure_release_added_mass(beam, count) + beam.mass_per_length * np.eye(count)

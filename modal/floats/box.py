@@ -77,11 +77,6 @@ def box_modes(body: FloatInTank, count: int, *, volume_term: bool = True) -> Box
         count: how many modes.
         volume_term: whether the mean level may rise; without it the volume is not kept, which is wrong.
 
-    Raises:
-        NoEstimateError: for a section that is unknown or blunt, a float off the middle, a top that is not rigid over
-            two liquids, an exponential without end, or a tank so long that it holds too many waves.
-        ValueError: if ``count`` is below 1.
-
     Source: two liquids, docs, § 6.
     """
     if count < 1:

@@ -26,9 +26,6 @@ def layer_wave_moment(profile: Profile, depth: float, wavenumbers: FloatArray) -
         profile: the section, bounded, extent < h_j.
         depth: h_j of the liquid, m.
         wavenumbers: k > 0, 1/m, shape (n,).
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     k = np.asarray(wavenumbers, dtype=np.float64)
     moment = wave_moment(profile, k * profile.half_height)
@@ -61,9 +58,6 @@ def liquid_inertia(profile: Profile, layers: TwoLayers, tank_length: float, wave
         tank_length: L, m.
         wavenumbers: k_n, 1/m, up to k · extent = 50 at least, shape (n,).
 
-    Raises:
-        NoEstimateError: for a blunt section.
-
     Source: two liquids, docs, § 6.
     """
     inertia = 0.0
@@ -85,9 +79,6 @@ def layer_inertia(profile: Profile, depth: float) -> float:
     Args:
         profile: the section, extent < h_j.
         depth: h_j, m.
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     relative_depth = depth / profile.half_height
     gap = (depth - profile.extent) / profile.half_height
@@ -112,13 +103,11 @@ def _wall_inertia(profile: Profile, depth: float, tank_length: float) -> float:
 
 
 def _liquids(layers: TwoLayers) -> list[tuple[float, float]]:
-    """Density and depth of each liquid, the upper one first."""
     lower = [(layers.density_below, layers.depth_below)]
     return [(layers.density_above, layers.depth_above), *lower] if layers.density_above else lower
 
 
 def _by_layer(profile: Profile, layers: TwoLayers, wavenumbers: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return R_j and ρ_j coth kh_j, each of shape (liquids, n)."""
     liquids = _liquids(layers)
     moments = np.array([layer_wave_moment(profile, depth, wavenumbers) for _, depth in liquids])
     loads = np.array([density / np.tanh(wavenumbers * depth) for density, depth in liquids])

@@ -32,9 +32,6 @@ def channel_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray
         layers: the liquids; two need a rigid lid. One of the depths may be infinite.
         frequency: ω > 0, rad/s, shape (n,).
 
-    Raises:
-        NoEstimateError: for a blunt section, one that reaches bottom or lid, or a top that is not rigid.
-
     Source: open water, docs, thin float.
     """
     check_channel(profile, layers)
@@ -71,12 +68,7 @@ def channel_inertia(profile: Profile, layers: TwoLayers) -> float:
 
 
 def check_channel(profile: Profile, layers: TwoLayers) -> None:
-    """Refuse what the theory of the channel does not hold for.
-
-    Raises:
-        NoEstimateError: for a blunt section, one that reaches bottom or lid, or a top over two liquids that is not
-            rigid.
-    """
+    """Refuse what the theory of the channel does not hold for."""
     check_pointed(profile)
     two = bool(layers.density_above)
     clearance = min(layers.depth_below, layers.depth_above) if two else layers.depth_below

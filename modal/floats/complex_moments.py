@@ -37,9 +37,6 @@ def complex_wave_moment(profile: Profile, argument: npt.ArrayLike) -> ComplexArr
     Returns:
         Values in the shape of ``argument``.
 
-    Raises:
-        NoEstimateError: for a blunt section.
-
     Source: open water, docs, thin float.
     """
     check_pointed(profile)

@@ -28,7 +28,6 @@ class FloatEstimate:
     note: str
 
     def __post_init__(self) -> None:
-        """Refuse a number that is not one."""
         for name in ("omega", "added_mass"):
             value = getattr(self, name)
             if value is not None and not math.isfinite(value):

@@ -36,7 +36,6 @@ class FloatInTank:
     profile: Profile | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what no tank can be."""
         for name in ("tank_length", "mass", "stiffness"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} is {getattr(self, name)}; it must be finite and positive")
@@ -66,11 +65,7 @@ class FloatInTank:
         return abs(self.position - self.tank_length / 2) <= _ROUNDING * self.tank_length
 
     def section(self) -> Profile:
-        """Return the profile.
-
-        Raises:
-            NoEstimateError: if it is not known.
-        """
+        """Return the profile."""
         if self.profile is None:
             raise NoEstimateError("the float is not a known symmetric shape that rests with its level y = 0 at y = 0")
         return self.profile

@@ -33,9 +33,6 @@ def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraug
     Args:
         profile: an exponential, with an end or without.
         layers: infinitely deep liquids.
-
-    Raises:
-        NoEstimateError: as `heave_pole`.
     """
     infinite, rate = replace(profile, tail=0.0), natural_rate(profile, layers)
     poles = heave_pole(infinite), second_pole(infinite)

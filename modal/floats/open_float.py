@@ -47,10 +47,6 @@ def open_float_estimate(profile: Profile, layers: TwoLayers, omega: npt.ArrayLik
         layers: the liquids; two need a rigid lid or an infinite depth above.
         omega: ω > 0, rad/s, at which a and b are wanted; may be empty.
 
-    Raises:
-        NoEstimateError: for a blunt section, one that reaches bottom or lid, or a top that is not rigid.
-        ValueError: if a frequency is not positive.
-
     Source: open water, docs, thin float.
     """
     radiation = thin_float_radiation(profile, layers, omega)
@@ -78,10 +74,6 @@ def released_float(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> 
         profile: the section.
         layers: the liquids; two need a rigid lid or an infinite depth above.
         time: t ≥ 0, s.
-
-    Raises:
-        NoEstimateError: as `free_motion`, and at finite depth.
-        ValueError: if a time is negative or not finite.
     """
     _require_deep(layers)
     return free_motion(profile, np.asarray(time, dtype=np.float64) * natural_rate(profile, layers))

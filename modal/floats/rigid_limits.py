@@ -55,9 +55,6 @@ def half_immersed_ellipse(half_width: float, draught: float, density: float) -> 
         half_width: b, m, not negative.
         draught: d, m, not negative.
         density: ρ, kg/m³.
-
-    Raises:
-        ValueError: if a length is negative.
     """
     _check_lengths(half_width, draught)
     b, d = half_width, draught
@@ -84,9 +81,6 @@ def interface_ellipse(
         half_height: h, m, not negative.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³.
-
-    Raises:
-        ValueError: if a length is negative.
     """
     total, difference = density_below + density_above, density_below - density_above
     half = half_immersed_ellipse(half_width, half_height, 1.0)
@@ -115,9 +109,6 @@ def section_heave_added_mass(profile: Profile, density_below: float, density_abo
         profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
-
-    Raises:
-        NoEstimateError: for shapes without a closed form.
     """
     b, h = profile.half_width, profile.half_height
     if profile.shape == "ellipse":

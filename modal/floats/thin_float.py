@@ -31,11 +31,7 @@ class ThinConstants:
 
 
 def thin_constants(profile: Profile) -> ThinConstants:
-    """Return the dimensionless constants of a thin float.
-
-    Raises:
-        NoEstimateError: for a blunt section.
-    """
+    """Return the dimensionless constants of a thin float."""
     slenderness = profile.half_width / profile.half_height
     area, inertia = area_factor(profile), inertia_factor(profile)
     frequency_squared = 1 / (area + slenderness * inertia / math.pi)
@@ -55,9 +51,6 @@ def thin_float_mass(profile: Profile, density_below: float, density_above: float
         profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     area = 2 * profile.half_width * profile.half_height * area_factor(profile)
     return (density_below + density_above) * area
@@ -67,9 +60,6 @@ def thin_float_added_mass(profile: Profile, density_below: float, density_above:
     """Return a_∞ = (2/π)(ρ₁ + ρ₂) J, kg/m, the added mass in heave far above the frequencies of the waves.
 
     Arguments as in `thin_float_mass`.
-
-    Raises:
-        NoEstimateError: for a blunt section, for which J diverges.
     """
     inertia = profile.half_width**2 * inertia_factor(profile)
     return 2 / math.pi * (density_below + density_above) * inertia
@@ -91,9 +81,6 @@ def thin_float_frequency(profile: Profile, density_below: float, density_above: 
     """Return Ω = √(c/(m + a_∞)), rad/s, of the float with the mass of the displaced liquids.
 
     Arguments as in `thin_float_stiffness`. Waves damp the motion, and shift its frequency in the second order of τ.
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     reduced_gravity = gravity * (density_below - density_above) / (density_below + density_above)
     return math.sqrt(thin_constants(profile).frequency_squared * reduced_gravity / profile.half_height)

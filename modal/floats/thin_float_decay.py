@@ -64,11 +64,6 @@ def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
         profile: the section.
         time: θ = t √(g*/h), from 0 to `LATEST`.
 
-    Raises:
-        NoEstimateError: for a blunt section, or a float so wide that its further poles leave no room for a ray, or
-            f(0) misses 1 by more than `SELF_CHECK`.
-        ValueError: if a time is negative or later than `LATEST`.
-
     Source: open water, docs, thin float.
     """
     theta = np.asarray(time, dtype=np.float64)
@@ -104,11 +99,7 @@ def free_motion_tail(profile: Profile, time: npt.ArrayLike) -> FloatArray:
 
 
 def crossover_time(profile: Profile) -> float:
-    """Return the last θ at which 2|r| e^{−γθ} of the heave pole equals the tail 4τ/(πθ²); later the tail is all.
-
-    Raises:
-        NoEstimateError: for a blunt section, or a float so wide that the tail exceeds the oscillation at all times.
-    """
+    """Return the last θ at which 2|r| e^{−γθ} of the heave pole equals the tail 4τ/(πθ²); later the tail is all."""
     pole = heave_pole(profile)
     rate = -pole.frequency.real
     ratio = 2 / math.pi * profile.half_width / profile.half_height / abs(pole.residue)

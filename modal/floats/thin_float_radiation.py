@@ -46,10 +46,6 @@ def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLi
         layers: the liquids; two need a rigid lid or an infinite depth above.
         omega: ω > 0, rad/s; may be empty.
 
-    Raises:
-        NoEstimateError: for a blunt section, one that reaches bottom or lid, or a top that is not rigid.
-        ValueError: if a frequency is not positive.
-
     Source: open water, docs, thin float.
     """
     frequency = np.asarray(omega, dtype=np.float64)
@@ -82,10 +78,6 @@ def complex_added_mass(profile: Profile, layers: TwoLayers, rate: npt.ArrayLike)
         profile: the section.
         layers: the liquids; their depths are not used.
         rate: p, 1/s, as z in `wave_integral`.
-
-    Raises:
-        NoEstimateError: for a blunt section.
-        ValueError: for p out of the sector of `wave_integral`.
     """
     z = np.asarray(rate, dtype=np.complex128) / natural_rate(profile, layers)
     value: ComplexArray = (
@@ -115,5 +107,4 @@ def _deep_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray) 
 
 
 def _inertia_unit(profile: Profile, layers: TwoLayers) -> float:
-    """(ρ₁ + ρ₂) b², kg/m."""
     return (layers.density_below + layers.density_above) * profile.half_width**2

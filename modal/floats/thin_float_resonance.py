@@ -48,10 +48,6 @@ def characteristic(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     Args:
         profile: the section.
         frequency: z, as for `wave_integral`.
-
-    Raises:
-        NoEstimateError: for a blunt section.
-        ValueError: for z out of the sector of `wave_integral`.
     """
     constants = thin_constants(profile)
     return _characteristic(profile, constants.coupling, constants.frequency_squared, frequency)
@@ -67,9 +63,6 @@ def heave_pole(profile: Profile) -> FreePole:
     Args:
         profile: the section; for floats wider than they are high the label loses its meaning.
 
-    Raises:
-        NoEstimateError: for a blunt section, or where the pole leaves the sector in which the theory is known.
-
     Source: open water, docs, thin float.
     """
     target = thin_constants(profile).coupling
@@ -79,11 +72,8 @@ def heave_pole(profile: Profile) -> FreePole:
 
 @functools.lru_cache(maxsize=256)
 def second_pole(profile: Profile) -> FreePole:
-    """Return the other pole of the exponential of infinite draught, which comes from z = −1: −1 + (1 + i)√τ/2 + O(τ).
-
-    Raises:
-        NoEstimateError: for any other shape, which has infinitely many further poles, beyond an angle of about 3π/4.
-    """
+    """Return the other pole of the exponential of infinite draught, which comes from z = −1: −1 + (1 + i)√τ/2 +
+    O(τ)."""
     if not has_infinite_draught(profile):
         raise NoEstimateError("only the exponential without end has exactly one more pole")
     coupling = min(thin_constants(profile).coupling, 1e-3)
@@ -100,10 +90,6 @@ def pole_count(profile: Profile, angle: float) -> int:
     Args:
         profile: the section.
         angle: between π/2 and `greatest_angle`; no pole may lie on that ray.
-
-    Raises:
-        NoEstimateError: for a blunt section, or if the argument does not make a whole number of turns.
-        ValueError: if ``angle`` is out of its range.
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):
         raise ValueError(f"angle is {angle}; it must be between π/2 and {greatest_angle(profile):.4f}")

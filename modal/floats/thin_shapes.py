@@ -26,11 +26,7 @@ _AREA: dict[FloatShape, float] = {"parabola": 2 / 3, "ellipse": math.pi / 4, "we
 
 
 def check_pointed(profile: Profile) -> None:
-    """Refuse a section that ends in a flat edge.
-
-    Raises:
-        NoEstimateError: if ω(extent) > 0: the flux −ω' then holds a point source, J is infinite.
-    """
+    """Refuse a section that ends in a flat edge."""
     if profile.is_blunt:
         raise NoEstimateError(
             f"the {profile.shape} ends in flat edges, where the slope of a thin float would be infinite: "
@@ -39,11 +35,7 @@ def check_pointed(profile: Profile) -> None:
 
 
 def area_factor(profile: Profile) -> float:
-    """Return S = ∫ω dy/(b h) over the upper half.
-
-    Raises:
-        NoEstimateError: for a blunt section.
-    """
+    """Return S = ∫ω dy/(b h) over the upper half."""
     check_pointed(profile)
     if profile.shape != "exponential":
         return _AREA[profile.shape]
@@ -55,11 +47,7 @@ def area_factor(profile: Profile) -> float:
 
 
 def inertia_factor(profile: Profile) -> float:
-    """Return J/b² = ∬ q(y) q(y') ln|(y + y')/(y − y')| dy dy' over the upper half, y in units of h.
-
-    Raises:
-        NoEstimateError: for a blunt section, for which it diverges.
-    """
+    """Return J/b² = ∬ q(y) q(y') ln|(y + y')/(y − y')| dy dy' over the upper half, y in units of h."""
     check_pointed(profile)
     if profile.shape != "exponential":
         return _INERTIA[profile.shape]
@@ -75,9 +63,6 @@ def wave_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
 
     Returns:
         Values in the shape of ``argument``; 1 at κ = 0.
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     check_pointed(profile)
     kappa = np.atleast_1d(np.asarray(argument, dtype=np.float64))
@@ -94,11 +79,7 @@ def wave_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
 
 
 def wave_moment_series(profile: Profile) -> tuple[FloatArray, FloatArray]:
-    """Return powers p and coefficients c of R(κ)/b = Σ c κ^{−p}, to full precision for κ and κ·extent/h > 50.
-
-    Raises:
-        NoEstimateError: for a blunt section.
-    """
+    """Return powers p and coefficients c of R(κ)/b = Σ c κ^{−p}, to full precision for κ and κ·extent/h > 50."""
     check_pointed(profile)
     m = np.arange(_SERIES_TERMS, dtype=np.float64)
     if profile.shape == "wedge":
@@ -118,9 +99,6 @@ def end_wave_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
     Args:
         profile: the section, bounded.
         argument: κ, shape (n,).
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     kappa = np.asarray(argument, dtype=np.float64)
     _, gaps, weights = flux_rule(profile)
@@ -134,9 +112,6 @@ def sine_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
     Args:
         profile: the section.
         argument: κ > 0, shape (n,).
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     check_pointed(profile)
     kappa = np.asarray(argument, dtype=np.float64)
@@ -171,9 +146,6 @@ def flux_rule(profile: Profile, smallest: float = 1.0) -> tuple[FloatArray, Floa
     Returns:
         Points y, their distances to the end Y − y (precise where small), and weights, which sum to 1, each of shape
         (n,); do not write to them.
-
-    Raises:
-        NoEstimateError: for a blunt section.
     """
     check_pointed(profile)
     end = min(_relative_extent(profile), _FAR)

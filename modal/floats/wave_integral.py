@@ -49,10 +49,6 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     Returns:
         Values in the shape of ``frequency``.
 
-    Raises:
-        NoEstimateError: for a blunt section.
-        ValueError: for z = 0 or beyond the sector.
-
     Source: open water, docs, thin float.
     """
     check_pointed(profile)

@@ -40,7 +40,6 @@ def lowest_between_slopes(tank: Tank) -> tuple[ExactMode, ...]:
 
 
 def _is_bed(tank: Tank, sides: list[tuple[float, float]]) -> bool:
-    """Whether the bed has these corners."""
     bed = tank.bed
     if not isinstance(bed, tuple) or len(bed) != len(sides):
         return False

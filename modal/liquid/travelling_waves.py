@@ -97,7 +97,6 @@ class TravellingWave:
         return factor * growing * decay, factor * decaying
 
     def _top_coefficients(self) -> tuple[float, float]:
-        """What Z is made of at the top: growing and decaying with y."""
         if math.isinf(self.layers.depth_above):
             return 0.0, 1.0
         if self.layers.top == "rigid":
@@ -147,9 +146,6 @@ def travelling_waves(layers: TwoLayers, omega: float) -> tuple[TravellingWave, .
         layers: the liquids; depths may be infinite.
         omega: ω > 0, rad/s.
 
-    Raises:
-        ValueError: if ω is not positive.
-
     Source: H. Lamb, "Hydrodynamics", art. 231; dispersion as in `two_layer.interface_frequencies`.
     """
     if not omega > 0.0:
@@ -161,8 +157,6 @@ def travelling_waves(layers: TwoLayers, omega: float) -> tuple[TravellingWave, .
 
 
 def _wavenumber(layers: TwoLayers, branch: Branch, omega: float) -> float:
-    """k by bisection in ln k: ω rises with k."""
-
     def excess(logarithm: float) -> float:
         return math.log(float(interface_frequencies(layers, math.exp(logarithm))[branch]) / omega)
 

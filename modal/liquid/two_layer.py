@@ -42,7 +42,6 @@ class TwoLayers:
     top: LayerTop = "rigid"
 
     def __post_init__(self) -> None:
-        """Refuse what cannot rest."""
         for name in ("density_below", "gravity"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} is {getattr(self, name)}; it must be finite and positive")
@@ -81,7 +80,6 @@ class InterfacePlate:
     hydrostatic: bool = True
 
     def __post_init__(self) -> None:
-        """Refuse what is no plate."""
         for name in ("flexural_rigidity", "mass_per_length"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise ValueError(f"{name} is {getattr(self, name)}; it must be finite and not negative")
@@ -125,9 +123,6 @@ def interface_frequencies(
     Returns:
         Angular frequencies, rad/s, in the shape of ``wavenumber``, by branch.
 
-    Raises:
-        ValueError: if a wavenumber is not positive.
-
     Source: H. Lamb, "Hydrodynamics", art. 231.
     """
     k = np.asarray(wavenumber, dtype=np.float64)
@@ -159,9 +154,6 @@ def tank_modes(
 
     Returns:
         Modes by ascending frequency, ``count`` of them.
-
-    Raises:
-        ValueError: if the length or ``count`` is not positive.
     """
     if not (math.isfinite(tank_length) and tank_length > 0):
         raise ValueError(f"tank_length is {tank_length}; it must be finite and positive")

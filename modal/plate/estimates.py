@@ -124,7 +124,6 @@ def _estimate(
     note: str,
     motion: EstimatedMotion = "elastic",
 ) -> PlateEstimate:
-    """The estimate by an added mass per area of ρ times a length."""
     plate = tank.plates[index]
     bending = plate.flexural_rigidity * eigenvalue if eigenvalue else 0.0
     stiffness = bending + float(plate.hydrostatic) * tank.density * tank.gravity

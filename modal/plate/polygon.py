@@ -76,7 +76,6 @@ class PolygonBasis:
 
     @property
     def _powers(self) -> list[tuple[int, int]]:
-        """Degrees in x and y of the polynomials."""
         return [
             (total - n, n)
             for total in range(self.degree + 1)

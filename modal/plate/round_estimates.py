@@ -41,7 +41,6 @@ def round_plate_estimates(physical: Tank, level: LevelTank) -> Iterator[PlateEst
 
 
 def _mean_depth(physical: Tank, plate: Plate) -> float:
-    """The mean depth below a plate, m."""
     depth, outline = physical.layers[0].depth, plate.outline
     assert isinstance(outline, Disc)
     if physical.bed is None:

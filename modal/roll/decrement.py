@@ -34,11 +34,7 @@ class FroudeCoefficients:
 
 
 def linear_decrement(ship: Ship) -> float:
-    """Return the ratio of a swing to the one before, half a cycle earlier, with linear damping: e^{−πn/√(k² − n²)}.
-
-    Raises:
-        ValueError: from critical damping on, where there are no further swings.
-    """
+    """Return the ratio of a swing to the one before, half a cycle earlier, with linear damping: e^{−πn/√(k² − n²)}."""
     _check_oscillates(ship)
     return math.exp(-math.pi * ship.damping / ship.damped_frequency)
 
@@ -58,9 +54,6 @@ def quadratic_decrement(quadratic_damping: float, amplitude: float) -> float:
 
     Returns:
         B, rad.
-
-    Raises:
-        ValueError: if an argument is negative or not finite.
     """
     _check_from_zero("quadratic_damping", quadratic_damping)
     _check_from_zero("amplitude", amplitude)
@@ -87,9 +80,6 @@ def swing_amplitudes(ship: Ship, amplitude: float, count: int) -> FloatArray:
 
     Returns:
         The swings, rad, shape (count + 1,), the first one included.
-
-    Raises:
-        ValueError: if an argument is negative or not finite, or the linear damping is critical or more.
     """
     _check_oscillates(ship)
     _check_from_zero("amplitude", amplitude)
@@ -111,9 +101,6 @@ def froude_coefficients(ship: Ship) -> FroudeCoefficients:
 
     Each is that of its damping alone: a exactly, b but for a relative (2dφ_m)²/15. Together they hold for small n/k and
     dφ_m, where a → πn/k.
-
-    Raises:
-        ValueError: if the linear damping is critical or more.
     """
     _check_oscillates(ship)
     linear = 2 * math.tanh(math.pi * ship.damping / (2 * ship.damped_frequency))
@@ -126,9 +113,6 @@ def damping_from_froude(natural_frequency: float, coefficients: FroudeCoefficien
     Args:
         natural_frequency: k, rad/s.
         coefficients: a, from 0 and below 2, and b.
-
-    Raises:
-        ValueError: if a or b is out of its range.
     """
     if not 0 <= coefficients.linear < 2:
         raise ValueError(f"linear is {coefficients.linear}; it must be 0 or more, and less than 2")
@@ -145,9 +129,6 @@ def fit_froude(swings: npt.ArrayLike) -> FroudeCoefficients:
 
     Args:
         swings: |φ|, rad, half a cycle each, shape (swings,), at least three of them.
-
-    Raises:
-        ValueError: if there are fewer, or one is not finite and positive.
     """
     swings = np.asarray(swings, float)
     if swings.ndim != 1 or len(swings) < 3:
@@ -165,9 +146,6 @@ def equivalent_roll_damping(ship: Ship, amplitude: float) -> float:
     Args:
         ship: the ship.
         amplitude: A, rad, from 0.
-
-    Raises:
-        ValueError: if the amplitude is negative or not finite.
     """
     _check_from_zero("amplitude", amplitude)
     return ship.damping + 4 / (3 * math.pi) * ship.quadratic_damping * ship.natural_frequency * amplitude

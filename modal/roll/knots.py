@@ -46,9 +46,6 @@ def roll_knots(ship: Ship, train: WaveTrain, start: float, end: float, per_perio
         start: first time, s, from 0.
         end: last time, s.
         per_period: how many in each period, at least.
-
-    Raises:
-        ValueError: if there would be more than `MOST_KNOTS`.
     """
     starts = train.starts
     edges = np.concatenate([[start], starts[(starts > start) & (starts < end)], [end]])

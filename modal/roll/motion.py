@@ -53,9 +53,6 @@ class LinearRollPath:
 
         Args:
             times: t, s, in any order and of any shape.
-
-        Raises:
-            ValueError: if a time is not finite.
         """
         times = np.array(times, dtype=float)
         if not np.isfinite(times).all():
@@ -91,9 +88,6 @@ def roll_path(ship: Ship, train: WaveTrain, angle: float = 0.0, rate: float = 0.
         train: the waves; the motion after them is free.
         angle: φ at t = 0, rad.
         rate: φ' at t = 0, rad/s.
-
-    Raises:
-        ValueError: if the angle or the rate is not finite, or the ship has quadratic damping.
     """
     for name, value in (("angle", angle), ("rate", rate)):
         if not math.isfinite(value):
@@ -124,9 +118,6 @@ def roll_response(
         times: t, s, in any order and of any shape.
         angle: φ at t = 0, rad.
         rate: φ' at t = 0, rad/s.
-
-    Raises:
-        ValueError: if a time, the angle or the rate is not finite, or the ship has quadratic damping.
     """
     return roll_path(ship, train, angle, rate).motion(times)
 

@@ -58,9 +58,6 @@ class QuadraticRollPath:
 
         Args:
             times: t, s, in any order and of any shape, up to ``end``.
-
-        Raises:
-            ValueError: if a time is not finite or later than ``end``.
         """
         times = np.array(times, dtype=float)
         wrong = ~np.isfinite(times) | (times > self.end)
@@ -94,10 +91,6 @@ def quadratic_roll_path(
         angle: φ at t = 0, rad.
         rate: φ' at t = 0, rad/s.
         tolerance: largest error of the angle, relative to the largest angle, from `LEAST_TOLERANCE` to 0.01.
-
-    Raises:
-        RollIntegrationError: if the tolerance is not reached.
-        ValueError: if an argument is not finite or out of its range.
     """
     for name, value in (("angle", angle), ("rate", rate)):
         if not math.isfinite(value):
@@ -158,8 +151,6 @@ def _integrate(
 
 
 class _Stage:
-    """The motion in one wave, or the free motion."""
-
     def __init__(self, ship: Ship, frequency: float, slope: float, tolerance: float) -> None:
         self.stiffness, self.linear = ship.natural_frequency**2, 2 * ship.damping
         self.quadratic, self.frequency, self.slope = ship.quadratic_damping, frequency, slope

@@ -70,10 +70,6 @@ def roll_solution(
         rate: φ' at t = 0, rad/s.
         tolerance: of an integration, relative to the largest angle.
         relative_ship_error: error of k, and of n relative to k; ``None`` if they are exact.
-
-    Raises:
-        RollIntegrationError: if the integration does not reach the tolerance.
-        ValueError: if an argument is out of its range.
     """
     clock, stages = [perf_counter()], ["solve", "statistics"]
     end = float(times[-1])

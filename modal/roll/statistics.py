@@ -42,11 +42,7 @@ class RollStatistics:
 
     def swings_above(self, level: float) -> int:
         """Return how many swings have |φ| > level, rad: each piece between zeros of φ counts once, however often it
-        comes back to the level.
-
-        Raises:
-            ValueError: if the level is negative or not a number.
-        """
+        comes back to the level."""
         if not level >= 0:
             raise ValueError(f"level is {level}; it must be 0 or more")
         return int(np.count_nonzero(np.abs(self.swing_angles) > level))
@@ -69,9 +65,6 @@ def roll_statistics(path: RollPath, end: float, start: float = 0.0) -> RollStati
         path: the motion, of `roll_path` or `quadratic_roll_path`.
         end: last time, s.
         start: first time, s, from 0: a later one leaves out the beginning of the motion.
-
-    Raises:
-        ValueError: if not 0 ≤ start < end < ∞, or there are too many oscillations between.
     """
     if not 0 <= start < end < math.inf:
         raise ValueError(f"start is {start} and end {end}; they must be finite, 0 ≤ start < end")

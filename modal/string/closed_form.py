@@ -68,11 +68,7 @@ def mode_shape(string: HangingString, number: int, positions: ArrayLike) -> NDAr
 
 
 def relative_roots(string: HangingString, positions: ArrayLike) -> NDArray[np.float64]:
-    """Return r = √(x/l) at positions x (m) above the lower end, in their shape.
-
-    Raises:
-        ValueError: if a position is not on the string.
-    """
+    """Return r = √(x/l) at positions x (m) above the lower end, in their shape."""
     _check_closed_form(string)
     positions = np.asarray(positions, dtype=float)
     wrong = ~((positions >= 0) & (positions <= string.length))
@@ -119,9 +115,6 @@ def steady_amplitude(string: HangingString, omega: float, positions: ArrayLike) 
     Returns:
         The ratio of amplitudes, shape (positions,). Infinite below the upper end without damping at ω = Ω_k, where
         the motion grows with time.
-
-    Raises:
-        ValueError: if ω is negative or a position is not on the string.
     """
     if not (omega >= 0 and math.isfinite(omega)):
         raise ValueError(f"omega is {omega}: it must be finite and not negative")

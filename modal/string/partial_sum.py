@@ -27,9 +27,6 @@ def partial_sum(
 
     Returns:
         U_N, m, shape (positions, times). Not 0 before the front.
-
-    Raises:
-        ValueError: if a position is not on the string, or a mode that must be among the terms is not.
     """
     times = np.atleast_1d(np.asarray(times, dtype=float))
     ratios = np.atleast_1d(relative_roots(string, positions))

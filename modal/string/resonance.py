@@ -40,11 +40,7 @@ class StringResonance:
 
 
 def string_resonance(string: HangingString, number: int) -> StringResonance:
-    """Return the resonance of mode k = number, counted from 1.
-
-    Raises:
-        ValueError: if the number is below 1.
-    """
+    """Return the resonance of mode k = number, counted from 1."""
     natural = natural_frequency(string, number)
     zero = natural * string.travel_time
     squared = (natural - string.damping) * (natural + string.damping)
@@ -63,11 +59,7 @@ def string_resonance(string: HangingString, number: int) -> StringResonance:
 
 
 def nearest_resonance(string: HangingString, omega: float) -> StringResonance:
-    """Return the resonance whose Ω_k is nearest to ω (1/s).
-
-    Raises:
-        ValueError: if ω is negative or not finite.
-    """
+    """Return the resonance whose Ω_k is nearest to ω (1/s)."""
     if not (omega >= 0 and math.isfinite(omega)):
         raise ValueError(f"omega is {omega}: it must be finite and not negative")
     frequencies = natural_frequencies(string, int(omega * string.travel_time / math.pi) + 2)

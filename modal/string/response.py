@@ -76,10 +76,6 @@ def string_response(
 
     Returns:
         Values, their errors and the number of modes. Exactly 0 before the front, f(t) at the upper end.
-
-    Raises:
-        ValueError: if a position is not on the string, a time is negative or after the end of the motion, or the
-            tolerance or most_terms is not allowed.
     """
     positions, times = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
     _check(motion, times, tolerance, most_terms)

@@ -31,7 +31,6 @@ class Rounding:
         ratios: NDArray[np.float64],
         times: NDArray[np.float64],
     ) -> None:
-        """Begin without modes."""
         self._damping = string.damping
         past = np.searchsorted(starts, times, side="right")
         self._steps = 1 + past / 16

@@ -133,9 +133,6 @@ def series_solution(
         times: t, s, shape (times,).
         tolerance: asked error of the displacement, relative to the largest one.
         modes: number of free motions.
-
-    Raises:
-        ValueError: if the string has no closed form, or a position or time is out of range.
     """
     started = perf_counter()
     aim = max(_SHARE * tolerance, _LEAST_TOLERANCE)

@@ -54,9 +54,6 @@ def string_in_axial_flow(
 
     Returns:
         λ, 1/s, with positive imaginary part, or growing, shape (count,).
-
-    Raises:
-        ValueError: if an argument is none, or the speed is that at which growth is infinitely fast.
     """
     for name, value in (("length", length), ("tension", tension), ("mass", mass), ("added_mass", added_mass)):
         if not (math.isfinite(value) and value > 0):
@@ -94,7 +91,6 @@ class AxialFlowBeam:
     taper: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         for name in ("length", "flexural_rigidity", "mass", "added_mass"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
@@ -127,11 +123,7 @@ class AxialFlowBeam:
         return math.sqrt(self.flexural_rigidity / (self.mass + self.added_mass)) / self.length**2
 
     def divergence_speed(self) -> float:
-        """Return the lowest speed of divergence, m/s: u = √(π² + Γ) pinned, √(4π² + Γ) clamped, for any β.
-
-        Raises:
-            ValueError: if an end is free, for which it is not known in closed form.
-        """
+        """Return the lowest speed of divergence, m/s: u = √(π² + Γ) pinned, √(4π² + Γ) clamped, for any β."""
         if self.ends == "clamped-free":
             raise ValueError("ends is 'clamped-free': divergence is known of pinned and clamped beams")
         wavenumber = math.pi if self.ends == "pinned" else 2 * math.pi
@@ -146,9 +138,6 @@ class AxialFlowBeam:
 
         Returns:
             λ, 1/s, by rising |λ|, shape (count,).
-
-        Raises:
-            ValueError: if count is none.
         """
         if not 1 <= count <= _POLYNOMIALS:
             raise ValueError(f"count is {count}: it must be from 1 to {_POLYNOMIALS}")
@@ -162,9 +151,6 @@ class AxialFlowBeam:
         Where both ends are held, or the free one is ideally tapered, two modes merge: to about 1e-8, with the
         frequency 0 if both of them grow already without oscillation. Else a mode loses its damping at the free end:
         from the exact determinant, to rounding.
-
-        Raises:
-            ValueError: if there is none below u = 40.
         """
         speeds = np.arange(_SPEED_STEP, _HIGHEST_SPEED, _SPEED_STEP)
         for low, high in pairwise(speeds.tolist()):
@@ -205,7 +191,6 @@ class AxialFlowBeam:
         return self.ends != "clamped-free" or self.taper == 1
 
     def _exponents(self, speed: float) -> ComplexArray:
-        """Return all λ for u."""
         mass, gyroscopic, bending, push = self._matrices
         stiffness = bending + speed**2 * push
         damping = math.sqrt(self.mass_ratio) * speed * gyroscopic

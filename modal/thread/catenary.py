@@ -62,11 +62,6 @@ def catenary_between(a: ArrayLike, b: ArrayLike, length: float, load_vector: Arr
 
     Returns:
         Positions and contact forces at s.
-
-    Raises:
-        ValueError: if the length is not longer than the chord, or the load is zero.
-        NoTensionError: if the chord is parallel to the load: the thread hangs in two straight parts, and turns in a
-            point without tension.
     """
     begin, places = np.asarray(a, dtype=float), np.asarray(s, dtype=float)
     chord, load = np.asarray(b, dtype=float) - begin, np.asarray(load_vector, dtype=float)
@@ -100,10 +95,6 @@ def elastic_catenary(
 
     Returns:
         Positions and contact forces at s.
-
-    Raises:
-        ValueError: if length or rigidity is none.
-        NoTensionError: if the thread is slack without weight, or hangs in two straight parts.
 
     Source: Irvine, Cable Structures, 1981, ch. 1.
     """

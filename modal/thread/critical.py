@@ -28,9 +28,6 @@ def critical_direction(load: ThreadLoad, point: ArrayLike) -> tuple[FloatArray, 
 
     Returns:
         τ, shape (3,), and q·τ, N/m.
-
-    Raises:
-        NoTensionError: if nothing pulls in any direction.
     """
     place = np.asarray(point, dtype=float)[None, :]
     stream = np.zeros(3) if load.stream is None else load.stream.velocity_at(place)[0]
@@ -66,9 +63,6 @@ def critical_angle(weight: float, normal_load: float) -> float:
     Args:
         weight: w, N/m; of a buoyant thread the angle is above the stream.
         normal_load: Rₙ = kₙ U², N/m, not negative.
-
-    Raises:
-        ValueError: if there is no load, or the drag is negative.
     """
     if not normal_load >= 0:
         raise ValueError(f"normal_load is {normal_load}: it must not be negative")
@@ -88,10 +82,6 @@ def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLik
         length: L, m.
         s: places, m, shape (n,).
         start: position of A, m.
-
-    Raises:
-        NoAsymptoticError: if the stream is not uniform.
-        NoTensionError: if nothing pulls at the tail.
     """
     if load.stream is not None and not isinstance(load.stream, UniformStream):
         raise NoAsymptoticError("the line of a free tail is straight in a uniform stream only")

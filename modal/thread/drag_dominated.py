@@ -51,10 +51,6 @@ def drag_dominated(
     Returns:
         The shape, its s of the same order, with the largest first-order change and what is left out: for order 1 the
         change times its own term.
-
-    Raises:
-        ValueError: if not one of height and length is given and positive, or order or count is none.
-        NoAsymptoticError: if the conditions do not hold, or weight changes the thread too much.
     """
     if (height is None) == (length is None):
         raise ValueError("height and length: one of them must be given, and the other is found")
@@ -119,7 +115,6 @@ class _Plane:
         return self.stream.velocity_at(self.start + np.outer(self.up * heights, UP))
 
     def _logarithm(self, angle: float) -> float:
-        """Return G."""
         return self.friction * math.copysign(1.0, 0.5 * math.pi - angle) * (1 / math.tan(angle) + angle - 0.5 * math.pi)
 
     def _solve(self, height: float) -> Any:

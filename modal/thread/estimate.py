@@ -111,11 +111,7 @@ def estimate_or_reason(name: str, find: Callable[[], ShapeEstimate | ValueEstima
 
 
 def require(condition: bool, reason: str) -> None:
-    """Refuse a theory whose condition does not hold.
-
-    Raises:
-        NoAsymptoticError: with the reason.
-    """
+    """Refuse a theory whose condition does not hold."""
     if not condition:
         raise NoAsymptoticError(reason)
 
@@ -126,9 +122,6 @@ def require_bare_thread(thread: Thread, *, stretch: bool) -> None:
     Args:
         thread: the thread.
         stretch: whether the thread may stretch.
-
-    Raises:
-        NoAsymptoticError: with the reason.
     """
     require(thread.flexural_rigidity == 0.0, "the thread resists bending")
     require(not thread.loads, "there are bodies on the thread")

@@ -26,23 +26,14 @@ def fixed_end_estimates(thread: Thread, places: FloatArray) -> Iterator[Found]:
 
 
 def fixed_ends(thread: Thread) -> tuple[FloatArray, FloatArray]:
-    """Positions of A and B, m, of a thread between fixed ends.
-
-    Raises:
-        NoAsymptoticError: if an end is not fixed.
-    """
+    """Positions of A and B, m, of a thread between fixed ends."""
     a, b = thread.ends
     require(a.is_fixed and b.is_fixed, "not both ends are fixed")
     return a.position, b.position
 
 
 def catenary_of(thread: Thread, places: FloatArray) -> ThreadShape:
-    """The catenary of a thread between fixed ends in a liquid at rest.
-
-    Raises:
-        NoAsymptoticError: if an end is not fixed, or a stream drags at the thread.
-        NoTensionError: if it is slack.
-    """
+    """The catenary of a thread between fixed ends in a liquid at rest."""
     a, b = fixed_ends(thread)
     require(thread.stream is None or not thread.has_line_drag, "a stream drags at the thread")
     length, rigidity = thread.length, thread.axial_rigidity

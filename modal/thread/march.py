@@ -79,10 +79,6 @@ def march_back(
         point_forces: pairs of a place 0 < s < L, m, and the force that acts there on the thread, N, or a function of
             the position of that place.
         tolerance: relative, of each step.
-
-    Raises:
-        ValueError: if length, rigidity or a place is none.
-        NoTensionError: if the tension vanishes, or no place of B is found.
     """
     _check(length, axial_rigidity)
     places = [place for place, _ in point_forces]
@@ -120,10 +116,6 @@ def march_tail(
         axial_rigidity: EA, N; infinite if the thread does not stretch.
         start: position of A, m.
         tolerance: relative, of each step.
-
-    Raises:
-        ValueError: if length or rigidity is none.
-        NoTensionError: if nothing pulls at the tail, or no place of B is found.
     """
     _check(length, axial_rigidity)
     tail = _TAIL * length
@@ -210,7 +202,6 @@ def _anywhere(
     length: float,
     tolerance: float,
 ) -> MarchedThread:
-    """Find the place of B."""
     found = root(
         lambda x: (march(start + length * x).positions[0] - start) / length,
         (marched.positions[-1] - start) / length,

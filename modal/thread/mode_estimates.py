@@ -89,7 +89,6 @@ def _line(thread: Thread) -> tuple[float, float]:
 
 
 def _still(thread: Thread) -> None:
-    """Refuse threads in a stream or with viscous drag."""
     require(thread.stream is None, "the liquid streams")
     require(thread.viscous_drag == 0.0, "the viscous drag damps the motion")
 
@@ -235,11 +234,7 @@ def _same_way(one: FloatArray, other: FloatArray) -> bool:
 
 
 def _along(thread: Thread) -> _Along:
-    """Return a straight thread in a stream along it.
-
-    Raises:
-        NoAsymptoticError: with the reason why it is none.
-    """
+    """Return a straight thread in a stream along it."""
     require(thread.reactive != "none", "no reaction of a liquid that streams along the thread is modelled")
     stream = thread.stream
     require(isinstance(stream, UniformStream), "the stream is not uniform")

@@ -45,9 +45,6 @@ def tensioned_beam_frequencies(
 
     Returns:
         ω_n, 1/s, increasing, shape (count,).
-
-    Raises:
-        ValueError: if an argument is none.
     """
     _positive(length=length, tension=tension, mass=mass)
     if not (math.isfinite(flexural_rigidity) and flexural_rigidity >= 0):
@@ -74,9 +71,6 @@ def chain_frequencies(
 
     Returns:
         ω_n, 1/s, increasing, shape (count,).
-
-    Raises:
-        ValueError: if an argument is none.
     """
     _positive(length=length, weight=weight, mass=mass)
     if not (math.isfinite(tip_mass) and tip_mass >= 0):
@@ -113,9 +107,6 @@ def damped_exponents(frequencies: ArrayLike, damping: float, mass: float) -> NDA
 
     Returns:
         λ, 1/s, shape (n, 2): of an oscillation with positive imaginary part first, else the slower one.
-
-    Raises:
-        ValueError: if damping or mass is none.
     """
     _positive(mass=mass)
     if not (math.isfinite(damping) and damping >= 0):
@@ -136,9 +127,6 @@ def irvine_parameter(span: float, weight: float, level_tension: float, axial_rig
         weight: w, submerged, N/m.
         level_tension: H, N.
         axial_rigidity: EA, N; infinite if the cable does not stretch.
-
-    Raises:
-        ValueError: if an argument is none.
 
     Source: Irvine and Caughey, Proc. R. Soc. A 341 (1974).
     """
@@ -167,9 +155,6 @@ def sagging_cable_frequencies(
 
     Returns:
         ω_n, 1/s, increasing, shape (count,).
-
-    Raises:
-        ValueError: if an argument is none.
 
     Source: Irvine and Caughey, Proc. R. Soc. A 341 (1974).
     """

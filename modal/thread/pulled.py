@@ -111,9 +111,6 @@ def pulled_thread(thread: Thread, places: FloatArray, *, stretch: bool = False) 
         thread: in space, SI units.
         places: arc lengths at which shapes are wanted, m from end A.
         stretch: whether it may stretch.
-
-    Raises:
-        NoAsymptoticError: if it is none, or has what no theory of it knows.
     """
     require(PulledThread.fits(thread), "not one end is fixed and the other one free")
     require_bare_thread(thread, stretch=stretch)
@@ -121,11 +118,7 @@ def pulled_thread(thread: Thread, places: FloatArray, *, stretch: bool = False) 
 
 
 def shape_at(shape: ThreadShape, places: FloatArray) -> ThreadShape:
-    """Return a shape at other places, by cubics.
-
-    Raises:
-        NoAsymptoticError: if the places of the shape do not increase.
-    """
+    """Return a shape at other places, by cubics."""
     require(bool(np.all(np.diff(shape.s) > 0.0)), "weight would turn the thread back")
     both = CubicSpline(shape.s, np.hstack([shape.positions, shape.forces]))(places)
     return ThreadShape(s=places, positions=both[:, :3], forces=both[:, 3:])

@@ -19,10 +19,6 @@ def taut_tension(length: float, chord: float, normal_load: float, axial_rigidity
         chord: c, m.
         normal_load: |Pq|, the load across the chord, N/m.
         axial_rigidity: EA, N; infinite if the thread does not stretch.
-
-    Raises:
-        ValueError: if an argument is none.
-        NoTensionError: if the tension is not determined, or vanishes.
     """
     for name, value in (("length", length), ("chord", chord)):
         if not (math.isfinite(value) and value > 0):
@@ -62,10 +58,6 @@ def taut_thread(
 
     Returns:
         Positions and contact forces at s.
-
-    Raises:
-        ValueError: if an argument is none.
-        NoTensionError: if the tension is not determined, or vanishes.
     """
     begin, places = np.asarray(a, dtype=float), np.asarray(s, dtype=float)
     chord, load = np.asarray(b, dtype=float) - begin, np.asarray(load_vector, dtype=float)

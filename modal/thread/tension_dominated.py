@@ -46,10 +46,6 @@ def tension_dominated(
 
     Returns:
         The shape at s, with ε and what is left out; for order 2 that is ε times its own term.
-
-    Raises:
-        ValueError: if ``order`` is none of the three.
-        NoAsymptoticError: if there is no force, or ε is above 0.5.
     """
     if order not in (0, 1, 2):
         raise ValueError(f"order is {order}: it must be 0, 1 or 2")
@@ -129,9 +125,6 @@ def pulled_up_in_uniform_stream(
         normal_load: Rₙ = kₙ U|U|, N/m, along x.
         length: L, m.
         pull: B, N.
-
-    Raises:
-        NoAsymptoticError: if the load is above half of the pull.
     """
     if not math.hypot(weight, normal_load) * length < _LARGEST * pull:
         raise NoAsymptoticError(f"the load on the length is not below {_LARGEST} of the pull, {pull} N")

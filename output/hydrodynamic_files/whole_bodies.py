@@ -143,16 +143,7 @@ def bodies_of_tables(
     *,
     width: float = 1.0,
 ) -> WholeBodies:
-    """Return whole bodies, each a section of some width or a solid of revolution.
-
-    Args:
-        tank: open water with one liquid, floats and beams.
-        radiation: analyses of radiation, at least one with a frequency that is positive and finite; of several with the
-            same frequency the first is taken.
-        response: analyses of the response; those that lack motions of radiation are left out.
-        impulse_response: analyses of impulse responses, with the motions of radiation; the first one is taken.
-        width: of sections, m; 1 of solids.
-    """
+    """Return whole bodies, each a section of some width or a solid of revolution."""
     dofs = radiation[0].dofs
     bodies = tuple(_at_rest(tank, index, width, radiation[0]) for index in range(len(tank.bodies)))
     along = _along(tank, bodies, dofs)

@@ -29,11 +29,7 @@ def in_parts(tank: SampledTank) -> bool:
 
 
 def write_parts(tank: SampledTank, folder: Path) -> None:
-    """Write ``fields/volume.pvtu`` and the part of each process, ``fields/volume/0000.vtu`` (collective).
-
-    Raises:
-        OSError: on all processes, if one of them cannot write.
-    """
+    """Write ``fields/volume.pvtu`` and the part of each process, ``fields/volume/0000.vtu`` (collective)."""
     comm, sample, parts = MPI.COMM_WORLD, tank.sample, folder / "fields" / "volume"
     problem = None
     try:

@@ -46,11 +46,7 @@ _ANIMATED = 2
 
 
 def draw_level_tank(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
-    """Draw every mode, the first one of a pair, into a folder, and animate the lowest if requested.
-
-    Raises:
-        NoRendererError: no library of this computer can render.
-    """
+    """Draw every mode, the first one of a pair, into a folder, and animate the lowest if requested."""
     drawn = [place for place, name in enumerate(tank.sample.names) if not name.endswith("_sin")]
     for place_of, mode in zip(drawn, tank.summary[MODES], strict=True):
         number = tank.sample.numbers[place_of] + 1
@@ -81,15 +77,7 @@ def _title(number: int, mode: Reading) -> str:
 
 
 def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, factor: float = 1.0) -> NDArray[np.uint8]:
-    """Return the picture of a mode as pixels, shape (height, width, 4).
-
-    Args:
-        sample: the shapes.
-        shape: which one.
-        title: of the picture.
-        width: in pixels.
-        factor: of the displacement, in the scales of the largest one.
-    """
+    """Return the picture of a mode as pixels, shape (height, width, 4)."""
     elevation = sample.elevations[shape]
     limit = float(np.abs(elevation).max()) or 1.0
     relative = factor * elevation / limit
@@ -105,7 +93,6 @@ def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, facto
 
 
 def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.uint8]:
-    """The displaced surface in the light, plates with their edges."""
     # Without a library that renders, VTK would end the process.
     require_renderer()
     import pyvista

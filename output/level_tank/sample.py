@@ -67,7 +67,6 @@ class SampledTank:
         return found
 
     def __getattr__(self, name: str) -> Any:
-        """The rest of what quantities are taken from."""
         return getattr(self.solved, name)
 
 

@@ -64,10 +64,6 @@ def write_open_csv(solution: Any, folder: Path) -> None:
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
     comes and the wave that leaves. Phases are those beside an incident wave whose crest is at x = 0 of the scene, or
     at ``sea.phase_at``, at t = 0, but for ``phase_at_body``.
-
-    Args:
-        solution: the solution.
-        folder: an existing folder.
     """
     groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
     files = {

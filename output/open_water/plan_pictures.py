@@ -18,14 +18,7 @@ _TICKS = 7
 
 
 def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: PictureOptions) -> None:
-    """Draw the elevation at t = 0 and its amplitude as ``plan_<name>.png``.
-
-    Args:
-        waves: the elevation.
-        title: of the scene.
-        folder: an existing folder.
-        options: how to draw.
-    """
+    """Draw the elevation at t = 0 and its amplitude as ``plan_<name>.png``."""
     from matplotlib.patches import Annulus, Circle
     from matplotlib.ticker import MaxNLocator
 

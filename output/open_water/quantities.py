@@ -164,10 +164,6 @@ def directional_scattering(table: ResponseTable, angles: Floats) -> Floats | Non
     revolution in waves on one level.
 
     Far away iⁿHₙ(kr) is √(2/(πkr)) e^{i(kr − π/4)} of every order n.
-
-    Args:
-        table: of the response.
-        angles: θ from the direction in which the incident waves travel, rad.
     """
     if table.partial_waves is None or len(table.waves) > 1:
         return None

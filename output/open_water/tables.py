@@ -41,12 +41,7 @@ _MOST_MOTIONS = 4
 
 def open_sections(solution: Any, summary: Reading) -> Iterator[Section]:
     """Yield the bodies at rest, the tables by analysis, the limits of the model, and the comparison with the thin-float
-    theory.
-
-    Args:
-        solution: the solution.
-        summary: what is written of it.
-    """
+    theory."""
     yield bodies_section(solution)
     whole = solution.tank.geometry.is_whole
     for radiation in solution.radiation:
@@ -67,7 +62,6 @@ def open_sections(solution: Any, summary: Reading) -> Iterator[Section]:
 
 
 def _estimates(infinite: InfiniteDraughtFloat | None, summary: Reading) -> Iterator[Section]:
-    """Comparison of the thin-float theory with the field solution."""
     found = summary[estimates.ESTIMATES]
     thin_float = found[estimates.THIN_FLOAT]
     rows, round_rows = thin_float[estimates.THIN_FLOAT_ROWS], found[estimates.ROUND_BODY][estimates.ROUND_BODY_ROWS]
@@ -203,7 +197,6 @@ def _of(found: Sequence[Column], *quantities: Quantity) -> list[Column]:
 
 
 def _strains(table: WavesAndMotions, shown: list[int]) -> Iterator[Section]:
-    """Largest strain and stress of plates of known thickness."""
     for plate in table.deflections:
         if plate.largest_strain is not None:
             columns = list(columns_of(STRAIN, plate, ("omega", "wave"), {"wave": table.waves}))
@@ -215,7 +208,6 @@ def _strains(table: WavesAndMotions, shown: list[int]) -> Iterator[Section]:
 
 
 def _missed(peak: UnresolvedPeak) -> str:
-    """Message on a peak that the curve does not show."""
     return (
         f"NOT SHOWN: between {peak.below:.6g} and {peak.above:.6g} rad/s {Dof(peak.quantity).words} changes by more "
         f"than the curve shows: {peak.value:.3g} at {peak.omega:.6g} rad/s, where the line between these has "

@@ -54,7 +54,6 @@ def open_variables(solution: Any) -> list[Variable]:
 
 
 def _without(variable: Variable, single: set[str]) -> Variable:
-    """A variable without dimensions of one place."""
     axes = tuple(axis for axis, name in enumerate(variable.dimensions) if name in single)
     return replace(
         variable,

@@ -32,17 +32,7 @@ _AMPLITUDE, _SLOPE = 0.25, 0.35
 
 
 def draw_wave_view(waves: PlanWaves, title: str, folder: Path, options: PictureOptions) -> None:
-    """Draw water and bodies at t = 0 as ``view_<name>.png``.
-
-    Args:
-        waves: the elevation and the bodies.
-        title: of the scene.
-        folder: an existing folder.
-        options: how to draw.
-
-    Raises:
-        NoRendererError: no library of this computer can render.
-    """
+    """Draw water and bodies at t = 0 as ``view_<name>.png``."""
     amplitude = min(_AMPLITUDE * max(outer for _, outer in _occupied(waves)), _SLOPE / waves.wavenumber)
     scale = options.width / WIDTH
     figure = new_page(_HEIGHT + _ABOVE + _BELOW, options.width)
@@ -91,7 +81,6 @@ def _view(waves: PlanWaves, amplitude: float, size: tuple[int, int]) -> NDArray[
 
 
 def _occupied(waves: PlanWaves) -> list[tuple[float, float]]:
-    """Inner and outer radii of bodies and plates."""
     return [*waves.waterplanes, *((float(radii[0]), float(radii[-1])) for radii, _ in waves.plates)]
 
 
@@ -107,7 +96,6 @@ def _surfaces(waves: PlanWaves, amplitude: float, edge: float) -> Iterator[tuple
 
 
 def _ring(waves: PlanWaves, inner: float, outer: float, amplitude: float) -> pyvista.StructuredGrid:
-    """The elevation between two radii."""
     import pyvista
 
     count = max(round(_CIRCLES * (outer - inner) / waves.radii[-1]), 8)

@@ -99,14 +99,7 @@ class Sheets:
 
     @contextmanager
     def sheet(self, name: str, heading: str, *, width: float, height: float = 5.4) -> Iterator[Figure]:
-        """Provide a figure to draw into; at the end of the block it is written as ``<name>.png`` and so on.
-
-        Args:
-            name: of the files.
-            heading: what is shown, after the title.
-            width: of the page, inches, before it is scaled.
-            height: the same.
-        """
+        """Provide a figure to draw into; at the end of the block it is written as ``<name>.png`` and so on."""
         from matplotlib.figure import Figure
 
         width, height = width * self.options.scale, height * self.options.scale

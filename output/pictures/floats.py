@@ -35,7 +35,6 @@ def up_to_floats(curve: SurfaceCurve, floats: tuple[FloatSection, ...], view: Vi
 
 
 def _crossings(corners: Array, height: float) -> Array:
-    """Abscissae at which a closed polygon crosses a height."""
     ends = np.roll(corners, -1, axis=0)
     crosses = (corners[:, 1] > height) != (ends[:, 1] > height)
     start, step = corners[crosses], (ends - corners)[crosses]

@@ -24,14 +24,7 @@ _JUDGED = 4
 
 
 def write_gif(pages: Sequence[NDArray[np.uint8]], path: Path, *, seconds: float, kept: Colormap | None = None) -> None:
-    """Write pages one after the other, with the same colours for all.
-
-    Args:
-        pages: shape (height, width, 4) each, red, green, blue and opacity in 0…255; two or more.
-        path: of the file in an existing folder.
-        seconds: that all pages together last; a page lasts whole hundredths of a second.
-        kept: a scale whose colours mean something: every second of 256 stays as it is.
-    """
+    """Write pages one after the other, with the same colours for all."""
     from PIL import Image
 
     colours = b"" if kept is None else kept(np.arange(0, 256, 2), bytes=True)[:, :3].tobytes()

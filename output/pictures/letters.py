@@ -41,7 +41,6 @@ class TextLine(Artist):
     zorder = 3.0
 
     def __init__(self, text: str, x: float, y: float, *, size: float, colour: str, room: float = np.inf) -> None:
-        """Measure the line."""
         super().__init__()
         self._text, self._x, self._y = text, x, y
         self._colour = 255.0 * np.array(to_rgb(colour), dtype=np.float32)
@@ -50,7 +49,6 @@ class TextLine(Artist):
         self.size *= min(1.0, room * _PARTS / max(width, 1))
 
     def _set(self) -> FT2Font:
-        """The font with the line in it."""
         font = get_font(findfont(FontProperties()))
         font.set_size(self.size, 72.0)
         with unhinted_letters():

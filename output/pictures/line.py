@@ -60,14 +60,7 @@ _AXIS: dict[str, Any] = {"fontsize": 23.0 * POINT}
 
 
 def draw_lines(view: LineView, lines: Sequence[DrawnLine], paths: Sequence[Path], *, width: int = 1600) -> None:
-    """Draw pictures of one view.
-
-    Args:
-        view: what stays the same.
-        lines: one for each picture.
-        paths: PNG files, as many.
-        width: of the images in pixels.
-    """
+    """Draw pictures of one view."""
     for line, path in zip(lines, paths, strict=True):
         save(pixels(_page(view, line, width)), path)
 
@@ -75,15 +68,7 @@ def draw_lines(view: LineView, lines: Sequence[DrawnLine], paths: Sequence[Path]
 def animate_line(
     view: LineView, lines: Sequence[DrawnLine], path: Path, *, width: int = 800, seconds: float = SECONDS
 ) -> None:
-    """Draw pictures of one view as the pages of a GIF that repeats itself.
-
-    Args:
-        view: what stays the same.
-        lines: one for each page, two or more.
-        path: of the GIF file in an existing folder.
-        width: of the image in pixels.
-        seconds: that all pages together last.
-    """
+    """Draw pictures of one view as the pages of a GIF that repeats itself."""
     from matplotlib import colormaps
 
     write_gif([pixels(_page(view, line, width)) for line in lines], path, seconds=seconds, kept=colormaps[SEQUENCE])
@@ -115,7 +100,6 @@ def _page(view: LineView, line: DrawnLine, width: int) -> Figure:
 
 
 def _draw_plane(figure: Figure, box: tuple[float, float, float, float], view: LineView, line: DrawnLine) -> None:
-    """The line seen along y."""
     axes = figure.add_axes(box, xlim=(view.low[0], view.high[0]), ylim=(view.low[2], view.high[2]))
     axes.grid(color=_GRID, lw=1.4 * POINT)
     axes.set_axisbelow(True)
@@ -185,7 +169,6 @@ def _pieces(points: Array) -> Array:
 
 
 def _coloured(view: LineView, line: DrawnLine) -> dict[str, Any]:
-    """A dark edge: the lightest colours are hardly seen on white."""
     return {
         "array": 0.5 * (line.values[:-1] + line.values[1:]),
         "norm": Normalize(*view.colours),

@@ -84,15 +84,7 @@ def line_view(
     measure: str,
     velocity_at: Callable[[Array], NDArray[np.floating[Any]]] | None = None,
 ) -> LineView:
-    """A view that holds all positions.
-
-    Args:
-        points: all positions that will be drawn, m, shape (n, 3).
-        values: all values that will be drawn.
-        quantity: what they are.
-        measure: their unit.
-        velocity_at: velocities, shape (n, 3), of points, shape (n, 3), of the stream; ``None`` for a liquid at rest.
-    """
+    """A view that holds all positions."""
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(np.max(high - low))
     floor, top = low[2], high[2]

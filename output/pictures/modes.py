@@ -53,33 +53,13 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, larg
     """Write a mode as one PNG with axes, colour bar and legend.
 
     The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
-
-    Args:
-        picture: the mode.
-        path: of the PNG file in an existing folder.
-        width: of the image in pixels.
-        largest: what gives the scales, if the picture is an instant of a motion; the picture itself by default.
-
-    Raises:
-        FileNotFoundError: the folder of the file does not exist.
-        ValueError: the file's name does not end in .png, or the width is below 400.
     """
     path = _checked_path(path, width, ".png")
     save(_mode_pages(picture, [picture.title], width, largest)[0], path)
 
 
 def animate_mode(picture: ModePicture, path: Path | str, *, width: int = 800) -> None:
-    """Write a period of a mode's motion as a GIF that repeats itself: everything moves as cos ωt in the same scales.
-
-    Args:
-        picture: the mode, at its largest displacement.
-        path: of the GIF file in an existing folder.
-        width: of the image in pixels.
-
-    Raises:
-        FileNotFoundError: the folder of the file does not exist.
-        ValueError: the file's name does not end in .gif, or the width is below 400.
-    """
+    """Write a period of a mode's motion as a GIF that repeats itself: everything moves as cos ωt in the same scales."""
     path = _checked_path(path, width, ".gif")
     pages: dict[int, NDArray[np.uint8]] = {}
     for frame in range(FRAMES // 2 + 1):
@@ -99,18 +79,7 @@ def phase_words(part: float) -> str:
 def animate_motion(
     instants: Sequence[ModePicture], largest: ModePicture, path: Path | str, *, width: int = 800
 ) -> None:
-    """Write a motion as a GIF that repeats itself.
-
-    Args:
-        instants: a period of the motion.
-        largest: the largest values of everything in the period, which give the scales of all pages.
-        path: of the GIF file in an existing folder.
-        width: of the image in pixels.
-
-    Raises:
-        FileNotFoundError: the folder of the file does not exist.
-        ValueError: the file's name does not end in .gif, or the width is below 400.
-    """
+    """Write a motion as a GIF that repeats itself."""
     path = _checked_path(path, width, ".gif")
     pages = [_mode_pages(instant, [instant.title], width, largest)[0] for instant in instants]
     write_gif(pages, path, seconds=SECONDS, kept=mode_colours())
@@ -119,18 +88,7 @@ def animate_motion(
 def draw_overview(
     pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
 ) -> None:
-    """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
-
-    Args:
-        pictures: the modes; each is drawn in its own scale.
-        path: of the PNG file in an existing folder.
-        columns: panels in a row; chosen from the shape of the tank by default.
-        width: of the image in pixels.
-
-    Raises:
-        FileNotFoundError: the folder of the file does not exist.
-        ValueError: no picture, no column, a wrong file name or a width below 400.
-    """
+    """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high."""
     path = _checked_path(path, width, ".png")
     if not pictures:
         raise ValueError("an overview needs at least one picture")

@@ -55,7 +55,6 @@ class PictureOptions:
     animate: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be drawn."""
         if not self.formats or not set(self.formats) <= set(CURVE_FORMATS):
             raise ValueError(f"formats = {self.formats}: allowed are one or more of {', '.join(CURVE_FORMATS)}")
         _require("dpi", self.dpi, DPI_LIMITS)
@@ -68,11 +67,7 @@ class PictureOptions:
         return max(self.width // 2, WIDTH_LIMITS[0])
 
     def without_effect(self, used: frozenset[PictureOption]) -> tuple[str, ...]:
-        """Say which options were changed in vain.
-
-        Args:
-            used: the options that the pictures of a scene heed.
-        """
+        """Say which options were changed in vain."""
         changed = [field.name for field in fields(self) if getattr(self, field.name) != field.default]
         return tuple(words for name, words in _WITHOUT_EFFECT.items() if name in changed and name not in used)
 

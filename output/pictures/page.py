@@ -62,7 +62,6 @@ class FieldImage(Artist):
     zorder = 0.0
 
     def __init__(self, image: NDArray[np.uint8], left: int, bottom: int) -> None:
-        """Take the pixels."""
         super().__init__()
         self._image, self._left, self._bottom = image, left, bottom
 
@@ -144,8 +143,6 @@ def _write(page: NDArray[np.uint8], path: Path) -> None:
 
 @dataclass
 class _Thread:
-    """Writes pages one after the other."""
-
     pool: ThreadPoolExecutor
     last: Future[None] | None = None
 
@@ -251,7 +248,6 @@ class ColourBar:
     """
 
     def __init__(self, figure: Figure, colours: Colormap | str, *, meaning: str, measure: str, exponent: int) -> None:
-        """Draw the colours and their meaning."""
         self._exponent = exponent
         width, gap = 640.0, 40.0
         left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning}, {measure}"))

@@ -29,7 +29,6 @@ class Same:
         self.thing = thing
 
     def __hash__(self) -> int:
-        """Return what tells things apart that exist at the same time."""
         return id(self.thing)
 
     def __eq__(self, other: object) -> bool:
@@ -103,12 +102,7 @@ class Raster:
         return np.einsum("tij,tj->ti", self._weights, values[self.triangles])
 
     def at(self, places: Array, values: Array) -> Array:
-        """Interpolate vectors at the points, shape (points, n), to places in pixels; NaN beside the triangles.
-
-        Args:
-            places: shape (places, 2).
-            values: shape (points, n).
-        """
+        """Interpolate vectors at the points, shape (points, n), to places in pixels; NaN beside the triangles."""
         column, row = np.floor(places).astype(int).T
         owners, starts, _ = self._runs
         owner = owners[np.searchsorted(starts, row * self.size[0] + column, side="right") - 1]
@@ -116,12 +110,7 @@ class Raster:
         return np.column_stack([(self._planes(component)[owner] * terms).sum(axis=1) for component in values.T])
 
     def coloured(self, values: Array, limit: float, colours: Colormap) -> NDArray[np.uint8]:
-        """Colour the values at the points, from −limit to limit.
-
-        Returns:
-            Red, green, blue and opacity in 0…255, shape (height, width, 4), the uppermost row first; white beside the
-            triangles.
-        """
+        """Colour the values at the points, from −limit to limit."""
         # Rounding leaves the ends of the scale by a little. What belongs to no triangle, the last one, is white.
         scale = colours(np.arange(colours.N + _BEYOND), bytes=True)
         shades = np.vstack([scale, _WHITE]).view(np.uint32).ravel()

@@ -12,11 +12,7 @@ class NoRendererError(RuntimeError):
 
 
 def require_renderer() -> None:
-    """Refuse before VTK renders without a library, which would end the process.
-
-    Raises:
-        NoRendererError: no library of this computer can render.
-    """
+    """Refuse before VTK renders without a library, which would end the process."""
     # The first one provides the classes that render.
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
     from vtkmodules.vtkCommonCore import vtkLogger
@@ -32,7 +28,6 @@ def require_renderer() -> None:
 
 
 def _require_renderer(window: str) -> None:
-    """Refuse judging by the class of VTK's window."""
     if window != "vtkOSOpenGLRenderWindow":
         return
     for name in _MESA_LIBRARIES:

@@ -57,16 +57,7 @@ def draw_tank(
     vectors: bool = True,
     thin: float = 1.0,
 ) -> None:
-    """Draw a mode without axes and legend.
-
-    Args:
-        axes: receive it; abscissae are in m, heights as the view draws them.
-        picture: the mode, or an instant of its motion.
-        view: what is drawn.
-        largest: what gives the scales of colours and vectors; the picture itself by default.
-        vectors: whether ∇ψ is drawn.
-        thin: widths of strokes over the usual ones.
-    """
+    """Draw a mode without axes and legend."""
     low, bottom, top, high = view.drawn(
         np.array([-view.depth, -view.depth, view.upper_depth, view.upper_depth + view.headroom])
     )
@@ -171,7 +162,6 @@ def iso_levels(limit: float) -> Array:
 
 @lru_cache(maxsize=8)
 def _raster(points: Same, triangles: Same, view: View, size: tuple[int, int]) -> Raster:
-    """The triangles as they are drawn, the same for all modes."""
     x, y = points.thing.T
     low, high = view.drawn(np.array([-view.depth, view.upper_depth + view.headroom]))
     corners = np.column_stack([x / view.length * size[0], (high - view.drawn(y)) / (high - low) * size[1]])
@@ -268,7 +258,6 @@ def _draw_resting(axes: Axes, section: FloatSection, view: View, thin: float) ->
 
 
 def _draw_walls(axes: Axes, picture: ModePicture, view: View, pixel: float, thin: float) -> None:
-    """Walls, ends of what is shown, and still levels."""
     wall = WALL * pixel
     edge, right = 0.5 * wall, view.length
     bottom, ceiling, top = view.drawn(np.array([-view.depth, view.upper_depth, view.upper_depth + view.headroom]))
@@ -306,12 +295,7 @@ def _fill(axes: Axes, polygons: Sequence[Array], zorder: float, **style: Any) ->
 
 
 def _stroke(axes: Axes, *strokes: tuple[Sequence[Any], float, str, tuple[float, float] | None]) -> None:
-    """Lines and polygons in one collection, which draws many as fast as one.
-
-    Args:
-        axes: receive them.
-        strokes: lines, with their width in pixels of a page, colour and dashes.
-    """
+    """Lines and polygons in one collection, which draws many as fast as one."""
     styles = [(line, *style) for lines, *style in strokes for line in lines]
     axes.add_collection(
         LineCollection(

@@ -147,7 +147,6 @@ def _drawn_depths(picture: ModePicture) -> tuple[float, float]:
 
 
 def _drawn_depth(picture: ModePicture, depth: float, reach: float) -> float:
-    """What is drawn of a liquid into which floats reach so far."""
     two = picture.has_two_liquids
     deepest, cut = (DEEPEST_OF_TWO, DEEP_CUT_OF_TWO) if two else (DEEPEST, DEEP_CUT)
     if depth <= deepest * picture.length:

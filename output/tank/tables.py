@@ -16,12 +16,7 @@ _FLOAT_UNITS = {"heave": "kg/m", "sway": "kg/m", "roll": "kg·m"}
 
 
 def tank_sections(summary: Reading, expected: Iterable[str] = ()) -> Iterator[Section]:
-    """Yield the tables of the modes, the floats and the estimates.
-
-    Args:
-        summary: of the solution.
-        expected: what to know of the model beside its answer.
-    """
+    """Yield the tables of the modes, the floats and the estimates."""
     tones = {tone[tank.TONE_INDEX] for tone in summary[tank.FIRST_ELASTIC_TONES] if tone[tank.ONE_MODE]}
     modes = [
         mode | {tank.KIND: f"{mode[tank.KIND]}, first elastic tone"} if place in tones else mode
@@ -98,7 +93,6 @@ def _which_mode(tone: Reading) -> str:
 
 
 def _float_lines(body: Reading) -> Iterator[str]:
-    """Hydrostatics and modes of a float."""
     left, right = body[tank.WATERPLANE]
     thin = body[tank.BOUNDARY] == "thin"
     width = "thin, its flux on the middle line" if thin else f"waterplane {left:.6g} to {right:.6g} m"
@@ -169,7 +163,6 @@ def _bound(estimate: Reading) -> str:
 
 
 def _notes(estimates: dict[str, Reading]) -> tuple[str, ...]:
-    """Return what each estimate neglects."""
     return tuple(f"{name}: {estimate[tank.ESTIMATE_NOTE]}" for name, estimate in estimates.items())
 
 

@@ -45,12 +45,7 @@ ARRAYS = (_MODE, _PLACE, _SURFACE, _BEAM, _MOTION, _CONTOUR, _MOVED, _MASSES, _S
 
 
 def tank_variables(solution: TankSolution, shapes: ModeShapes) -> Iterator[Variable]:
-    """Yield the shapes of all modes, the growing ones apart, and the matrices of floats.
-
-    Args:
-        solution: the field solution.
-        shapes: mode shapes, in SI units.
-    """
+    """Yield the shapes of all modes, the growing ones apart, and the matrices of floats."""
     asked = len(shapes.curves) - shapes.growing
     for modes, prefix in ((slice(0, asked), ""), (slice(asked, None), "growing_")):
         if shapes.curves[modes]:
@@ -79,7 +74,6 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, prefix: str
 
 
 def _variable(quantity: Quantity, values: Any, place: str = "", prefix: str = "", *, turning: bool = True) -> Variable:
-    """An array of a place, of modes that the prefix names."""
     name, *dimensions = (text.format(place=place) for text in (quantity.key, *quantity.dimensions))
     return Variable(
         name=f"{prefix}{name}",
@@ -105,7 +99,6 @@ def _labels(solution: TankSolution, dimension: str) -> Iterator[Variable]:
 
 
 def _turns(solution: TankSolution) -> NDArray[np.float64]:
-    """Whether each motion of the floats is a rotation."""
     return np.concatenate([body.is_rotation for body in solution.tank.floats.values()])
 
 

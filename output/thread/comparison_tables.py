@@ -20,11 +20,7 @@ _NOT_EXPLAINED = (
 
 
 def comparison_sections(comparison: Summary) -> Iterator[Section]:
-    """Yield the tables of shapes, of values and of estimates that do not apply.
-
-    Args:
-        comparison: of `thread_differences`.
-    """
+    """Yield the tables of shapes, of values and of estimates that do not apply."""
     told = Reading(compared.COMPARISON, comparison)
     if told[compared.SHAPES]:
         yield _shapes(told, "position", compared.POSITION, compared.POSITION_ERROR)
@@ -35,7 +31,6 @@ def comparison_sections(comparison: Summary) -> Iterator[Section]:
 
 
 def _inapplicable(entries: list[Reading]) -> Section:
-    """Estimates that do not apply, by reasons."""
     names: dict[str, list[str]] = {}
     for entry in entries:
         names.setdefault(entry[compared.REASON], []).append(entry[compared.NAME])

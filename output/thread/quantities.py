@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class _ModesInSpace:
-    """Free motions, the oscillating ones first."""
-
     modes: ThreadModes
     frame: Frame
 

@@ -103,7 +103,6 @@ def _motion(motion: Reading) -> Section:
 
 
 def _slack(times: list[Reading]) -> Iterator[str]:
-    """Return a warning where the thread would be in compression."""
     if not times:
         return
     worst = min(times, key=lambda entry: float(entry[thread.SLACK_TENSION]))

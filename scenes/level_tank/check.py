@@ -26,14 +26,7 @@ _TOPS = {
 
 
 def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
-    """Yield what is asked, the boundaries, the unknowns, the plates' dimensionless groups, and the size.
-
-    Args:
-        scene: a validated scene; nothing is solved.
-
-    Raises:
-        SceneError: if no solver takes it, or its parts do not fit together or cannot be meshed.
-    """
+    """Yield what is asked, the boundaries, the unknowns, the plates' dimensionless groups, and the size."""
     require_treated(scene)
     tank = physical_level_tank(scene)
     asked = scene.accuracy

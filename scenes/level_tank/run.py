@@ -69,12 +69,7 @@ NOTHING_TO_COMPARE = (
 
 
 def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a tank in three dimensions and compare it with closed forms and estimates; writes nothing (collective).
-
-    Raises:
-        SceneError: if no solver takes it.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a tank in three dimensions and compare it with closed forms and estimates; writes nothing (collective)."""
     return beside_estimates(run_level_tank(scene, report=report))
 
 

@@ -57,13 +57,7 @@ class SolvedLevelTank:
 
 
 def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
-    """Solve a tank in three dimensions and estimate it (collective).
-
-    Raises:
-        SceneError: if no solver takes its plan and plates, its parts do not fit together or cannot be meshed, or
-            nothing oscillates.
-        UnsolvedError: if the eigen-solver fails, or memory is too small.
-    """
+    """Solve a tank in three dimensions and estimate it (collective)."""
     require_treated(scene)
     from hydroelastic.fem.plan.solve import solve_smallest_model
     from hydroelastic.fem.solver_error import EigenSolverError, TooLargeError
@@ -100,11 +94,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
 
 
 def require_treated(scene: LevelTankScene) -> None:
-    """Refuse a tank that no solver takes.
-
-    Raises:
-        SceneError: if no model takes it.
-    """
+    """Refuse a tank that no solver takes."""
     from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
 
     try:
@@ -115,11 +105,7 @@ def require_treated(scene: LevelTankScene) -> None:
 
 @contextmanager
 def misplacements() -> Iterator[None]:
-    """Turn what only the making of a volume shows, such as a baffle beside the tank, into an error of the scene.
-
-    Raises:
-        SceneError: if parts of the tank do not fit together.
-    """
+    """Turn what only the making of a volume shows, such as a baffle beside the tank, into an error of the scene."""
     from hydroelastic.meshes.tagged_mesh import MisplacedError
 
     try:

@@ -14,7 +14,6 @@ _NOTHING = ((0.0, 0.0, 0.0),) * 3
 
 
 def _as_matrix(value: Any) -> Any:
-    """Three numbers are a diagonal."""
     if isinstance(value, list | tuple) and not any(isinstance(row, list | tuple) for row in value):
         if len(value) != 3:
             raise problem(f"there are {len(value)} numbers", allowed="three numbers, or three rows of three numbers")

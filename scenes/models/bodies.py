@@ -154,7 +154,6 @@ class Beam(SceneModel):
     @model_validator(mode="before")
     @classmethod
     def _of_sections(cls, given: Any) -> Any:
-        """Add the length and the means of a beam of sections."""
         if not isinstance(given, dict) or not given.get("sections"):
             return given
         problems = [
@@ -173,7 +172,6 @@ class Beam(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize a beam with the keys with which it was given."""
         left_out = UNIFORM_KEYS if self.sections else ()
         empty = tuple(key for key in ("sections", "joints") if not getattr(self, key))
         return {key: value for key, value in write(self).items() if key not in (*left_out, *empty)}

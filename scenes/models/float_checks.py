@@ -303,7 +303,6 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: Box) -> Iter
 
 
 def _lies_in_the_stretch(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
-    """Floats in open water of a drawn length lie within it."""
     if scene.kind == "tank" and body.position > scene.tank.length:
         yield problem_at(
             ("body", index, "position"),

@@ -292,7 +292,6 @@ def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _plan_bounds(plan: Plan) -> Bounds:
-    """Least and largest x and y of a plan that is not of a file."""
     if isinstance(plan, Box):
         return (0.0, plan.length), (0.0, plan.width)
     if isinstance(plan, Cylinder):

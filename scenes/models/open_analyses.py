@@ -57,7 +57,6 @@ class Radiation(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize without frequencies of fields that are not given."""
         return {key: value for key, value in write(self).items() if key != "fields_at" or value}
 
 
@@ -97,7 +96,6 @@ class Response(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize without further keys that are not given."""
         further = ("wave_amplitude", "hull_pressures", "fields_at")
         return {key: value for key, value in write(self).items() if key not in further or value}
 

@@ -61,7 +61,6 @@ class SceneModel(BaseModel, metaclass=_Keyworded):
     if not TYPE_CHECKING:  # where an assignment is refused as it is
 
         def __setattr__(self, name: str, value: Any) -> None:
-            """Refuse an assignment in the words of a scene."""
             try:
                 super().__setattr__(name, value)
             except ValidationError:

@@ -150,7 +150,6 @@ class SeaScene(TankParts):
 
 
 def _span(body: AnyBody, scene: SeaScene) -> tuple[float, float]:
-    """Smallest and largest x of a body, m."""
     if isinstance(body, SeaPlate):
         return -body.radius, body.radius
     if not isinstance(body, AnyFloat):

@@ -78,7 +78,6 @@ def closed_tanks_have_springs_alone(scene: TankParts) -> Iterator[InitErrorDetai
 
 
 def _is_round(one: Attachment) -> bool:
-    """Whether heave stays uncoupled from surge and pitch."""
     coupled = [row for matrix in (one.stiffness, one.damping) for row in (matrix[0][1], matrix[0][2])]
     return (one.at is None or one.at[0] == 0.0) and not any(coupled)
 

@@ -39,7 +39,6 @@ class Resistance(SceneModel):
 
 
 def _uniform(value: Any) -> Any:
-    """A number is a uniform resistance."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     return {"bottom": value, "top": value} if is_number else value
 

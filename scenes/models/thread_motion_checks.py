@@ -74,7 +74,6 @@ def _integrator(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int
 def _straight_start(
     scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """A straight start must agree with the supports of the ends."""
     a, b = scene.ends.a, scene.ends.b
     size = hypot(*motion.direction)
     if size == 0.0:

@@ -53,7 +53,6 @@ class Offset(Release):
 
 
 def _as_heave(value: Any) -> Any:
-    """A number without a name is a heave."""
     return {"heave": value} if not isinstance(value, dict | Release) else value
 
 

@@ -43,7 +43,6 @@ class OrElse:
     form: dict[str, Any] | type[BaseModel]
 
     def __get_pydantic_json_schema__(self, own: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Return the schema of either form."""
         other = self.form if isinstance(self.form, dict) else handler(self.form.__pydantic_core_schema__)
         return {"anyOf": [handler(own), other]}
 
@@ -92,7 +91,6 @@ def _shortest(value: float) -> float:
 
 
 def _expanded(value: Any) -> Any:
-    """Write the table of a sweep out as a list."""
     if not isinstance(value, dict):
         return value
     try:

@@ -169,7 +169,6 @@ def _given_in_one_way(beam: VaryingBeam) -> Iterator[InitErrorDetails]:
 
 
 def _covers(beam: VaryingBeam, key: str) -> Iterator[InitErrorDetails]:
-    """Each table begins at the left end, and its x ascends."""
     table = getattr(beam, key) or ()
     places = [x for x, _ in table]
     if places and places[0] != 0.0:

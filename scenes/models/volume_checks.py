@@ -191,7 +191,6 @@ def _touch(one: SolidFloat, other: SolidFloat | Rectangle | Disc) -> bool:
 
 
 def _meet(one: Bounds, other: Bounds) -> bool:
-    """Whether two boxes touch or overlap."""
     return all(low <= upper and lower <= high for (low, high), (lower, upper) in zip(one, other, strict=True))
 
 

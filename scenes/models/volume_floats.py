@@ -48,7 +48,6 @@ class UnfloatableError(ValueError):
     """
 
     def __init__(self, key: str, wrong: str) -> None:
-        """Keep the key."""
         super().__init__(wrong)
         self.key = key
 

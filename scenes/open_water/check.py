@@ -32,11 +32,7 @@ _LOWEST_TONE = 0.1
 
 def check_open(scene: TankParts) -> Iterator[Section]:
     """Yield the description of open water, the analyses and the outgoing waves; a decay is meshed, to estimate its
-    cost.
-
-    Args:
-        scene: a validated scene.
-    """
+    cost."""
     waves = Section(title="Outgoing waves", lines=tuple(open_waves(scene)))
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
 
@@ -55,11 +51,7 @@ def open_requests(scene: TankParts) -> Iterator[str]:
 
 
 def _sizes(scene: TankParts) -> Iterator[str]:
-    """Yield the size of the first mesh of the analyses over the frequency, which is made.
-
-    Raises:
-        SceneError: if no mesh can be made.
-    """
+    """Yield the size of the first mesh of the analyses over the frequency, which is made."""
     bands = [band for one in scene.analyses if (band := getattr(one.request, "band", None)) is not None]
     bands += [
         (_LOWEST_TONE * one.below, one.below) for one in scene.analyses if isinstance(one, Resonance) and one.below

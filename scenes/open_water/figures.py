@@ -37,14 +37,7 @@ _FREQUENCY = "angular frequency ω, rad/s"
 
 
 def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> None:
-    """Draw what the solution holds: one figure for each analysis, and one for each beam in waves.
-
-    Args:
-        solution: the solution.
-        folder: an existing folder, for ``radiation_1.png``, ``response_1.png``, ``deflection_1_body_1.png``,
-            ``resonance_1.png``, ``decay_1.png`` and so on.
-        options: how to draw.
-    """
+    """Draw what the solution holds: one figure for each analysis, and one for each beam in waves."""
     sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
     for number, radiation in enumerate(solution.radiation, 1):
         _draw_radiation(radiation, sheets, f"radiation_{number}", solution.tank.geometry.is_whole)
@@ -215,7 +208,6 @@ def _draw_directions(table: ResponseTable, sheets: Sheets, name: str) -> None:
 
 
 def _incident(table: RadiationTable | ResponseTable) -> list[str]:
-    """What tells incident waves apart where there are several."""
     return [f", {wave} wave" if len(table.waves) > 1 else "" for wave in table.waves]
 
 
@@ -262,7 +254,6 @@ def _draw_resonances(table: ResonanceTable, sheets: Sheets, name: str) -> None:
 
 
 def _resonance_words(omega: complex, label: Dof) -> Iterator[str]:
-    """Its motion, its place, its period and how fast it dies out."""
     yield label.words
     yield f"{omega.real:.4g} {_signed(omega.imag)}i"
     if omega.real:

@@ -17,12 +17,7 @@ from hydroelastic.scenes.open_water.results import OpenSolution
 
 
 def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution:
-    """Solve all analyses of a scene with open ends (collective).
-
-    Raises:
-        SceneError: if no mesh can be made, or a float that is released would capsize or drift away.
-        UnsolvedError: if resonances cannot be found, or a motion in waves grows without bound.
-    """
+    """Solve all analyses of a scene with open ends (collective)."""
     requests = tuple(analysis.request for analysis in scene.analyses)
     try:
         solved = solve_open_water(open_water_problem(scene, comm, Stopwatch()), requests, report)

@@ -32,11 +32,7 @@ _Error: TypeAlias = float | str | None
 
 
 def answer(summary: Summary) -> Section:
-    """Return the main numbers of a result, with their relative errors.
-
-    Args:
-        summary: content of ``summary.json``.
-    """
+    """Return the main numbers of a result, with their relative errors."""
     rows = list(_ROWS[family_of(summary)](reading_of(summary)))
     return Section(title="", headings=("quantity", "value", "estimated relative error"), rows=rows)
 
@@ -49,7 +45,6 @@ def _row(quantity: str, value: float, relative_error: _Error) -> Row:
 
 
 def _of_absolute(quantity: str, value: float, error: _Error) -> Row:
-    """A value with an absolute error."""
     if not isinstance(error, float):
         return _row(quantity, value, None)
     if abs(value) <= error:
@@ -82,7 +77,6 @@ def _tank(summary: Reading) -> Iterator[Row]:
 
 
 def _level_tank(summary: Reading) -> Iterator[Row]:
-    """The lowest frequencies, and those of the plates."""
     yield from _modes(summary[level_tank.MODES], level_tank.MODE_OMEGA, level_tank.KIND)
     for tone in summary[level_tank.TONES]:
         if tone[level_tank.TONE_OMEGA] is not None:
@@ -145,7 +139,6 @@ def _open_water(summary: Reading) -> Iterator[Row]:
 
 
 def _largest_reflections(table: Reading) -> Iterator[Row]:
-    """The largest reflection of each incident wave."""
     waves, largest = table[water.WAVES], table[water.LARGEST_REFLECTION]
     for wave, name in enumerate(waves):
         which = f" of {name} waves" if len(waves) > 1 else ""
@@ -154,7 +147,6 @@ def _largest_reflections(table: Reading) -> Iterator[Row]:
 
 
 def _largest_motions(table: Reading, motions: Iterable[tuple[int, Dof]]) -> Iterator[Row]:
-    """The largest motions of solids in waves of unit amplitude."""
     largest = table[water.LARGEST]
     values, omegas, errors = (largest[water.LARGEST[key]][0] for key in ("value", "omega", "error"))
     for place, dof in motions:

@@ -83,12 +83,7 @@ def place_among_others(stem: str) -> tuple[int, int, str]:
 
 
 def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str], str]:
-    """Return the position of a picture among the others, and its caption.
-
-    Args:
-        stem: name of its file, without the ending.
-        summary: content of ``summary.json``.
-    """
+    """Return the position of a picture among the others, and its caption."""
     name, number, rest = _parts(stem)
     order = place, *_ = place_among_others(stem)
     if place == len(_CAPTIONS):

@@ -18,12 +18,7 @@ from hydroelastic.scenes.read import Scene
 
 
 def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
-    """Return the tables of comparisons, or the reason why there are none, on this process only.
-
-    Args:
-        scene: the scene.
-        outcome: of its run.
-    """
+    """Return the tables of comparisons, or the reason why there are none, on this process only."""
     if isinstance(scene, TankScene) or scene.kind == "sea":
         return _section(scene, outcome)
     if isinstance(scene, LevelTankScene | OrderedTankScene):
@@ -37,7 +32,6 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 
 def _section(scene: TankScene | SeaScene, outcome: Outcome) -> tuple[Section, ...] | str:
-    """The run has computed the estimates."""
     found = tuple(section for section in outcome.sections if section.compares)
     if found:
         return found

@@ -20,13 +20,7 @@ from hydroelastic.scenes.report.scene_text import scene_text
 
 
 def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
-    """Return the report of a run, on this process only.
-
-    Args:
-        scene: the scene.
-        outcome: of its run.
-        folder: of its results, where the pictures are.
-    """
+    """Return the report of a run, on this process only."""
     summary = outcome.summary
     told = read_summary(summary)
     return ReportPage(
@@ -41,7 +35,6 @@ def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
 
 
 def _parts(scene: Scene, outcome: Outcome, images: Path) -> Iterator[Part]:
-    """The parts: results, then the model, then the cost."""
     summary = outcome.summary
     shown, left_out = pictures_of(images, summary)
     compared = comparison_of(scene, outcome)

@@ -18,11 +18,7 @@ Family: TypeAlias = Literal["tank", "level tank", "open water", "string", "threa
 
 
 def family_of(summary: Summary) -> Family:
-    """Return the family: open water is that of two kinds of scenes, and the kind "tank" has two families.
-
-    Args:
-        summary: content of ``summary.json``.
-    """
+    """Return the family: open water is that of two kinds of scenes, and the kind "tank" has two families."""
     if water.RADIATION.key in summary:
         return "open water"
     kind = read_summary(summary)[SCENE]["kind"]

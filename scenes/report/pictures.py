@@ -28,10 +28,6 @@ def pictures_of(folder: Path, summary: Summary) -> tuple[tuple[Picture, ...], tu
     """Return the pictures of a folder, and the names of those beyond the size limit.
 
     Of several formats of a picture, vector graphics (SVG) take precedence over pixels (PNG).
-
-    Args:
-        folder: of the images; may be empty.
-        summary: content of ``summary.json``.
     """
     shown, room = [], _ALL
     # PDF cannot be embedded.
@@ -47,7 +43,6 @@ def pictures_of(folder: Path, summary: Summary) -> tuple[tuple[Picture, ...], tu
 
 
 def _in_a_page(file: Path) -> bool:
-    """Whether a picture exists in a format that can be embedded."""
     return any(file.with_suffix(ending).exists() for ending in (".svg", ".png"))
 
 
@@ -68,7 +63,6 @@ def _files(folder: Path, summary: Summary) -> Iterator[tuple[Path, str]]:
 
 
 def _picture(file: Path, caption: str) -> tuple[Picture, int]:
-    """An embedded picture, and its size in bytes."""
     content = file.read_bytes()
     width = height = None
     kind = {".svg": "svg+xml", ".gif": "gif", ".png": "png"}[file.suffix]

@@ -19,11 +19,7 @@ from hydroelastic.scenes.report.families import Family, family_of, reading_of
 
 
 def resolved(summary: Summary) -> Section:
-    """Return the refinements by which the result reached the tolerance, and their reasons.
-
-    Args:
-        summary: content of ``summary.json``.
-    """
+    """Return the refinements by which the result reached the tolerance, and their reasons."""
     lines = _LINES[family_of(summary)]
     return Section(title="How the answer was found", lines=tuple(lines(reading_of(summary))))
 
@@ -50,14 +46,12 @@ def _level_tank(summary: Reading) -> Iterator[str]:
 
 
 def _attempts(summary: Reading, attempts: int) -> str:
-    """How often the modes were solved."""
     if attempts == 1:
         return "One attempt." if summary[REASONS] else "One attempt: its estimated errors are within the tolerance."
     return f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
 
 
 def _confirmed(solver: Reading, count_confirmed: Quantity, residual: Quantity) -> Iterator[str]:
-    """What confirms the modes."""
     if solver[count_confirmed]:
         yield "An independent count, by the inertia of the matrices, confirms that no mode is missing."
     yield f"Largest residual of the modes: {solver.cell(residual)}."

@@ -18,17 +18,12 @@ _FEW = 12
 
 
 def scene_text(scene: Scene) -> str:
-    """Return a scene as TOML that reads back as the same scene from the folder of its file.
-
-    Args:
-        scene: the scene.
-    """
+    """Return a scene as TOML that reads back as the same scene from the folder of its file."""
     given = scene.model_dump(exclude_unset=True)
     return "\n".join(_table((), scene.model_dump(), given)).strip() + "\n"
 
 
 def _table(name: tuple[str, ...], values: dict[str, Any], given: dict[str, Any]) -> Iterator[str]:
-    """The lines of a table: its own keys, then the tables in it."""
     inner = {key: value for key, value in values.items() if _is_table(value)}
     for key, value in values.items():
         if value is not None and key not in inner:

@@ -18,13 +18,7 @@ _HERE = Path(__file__).resolve().parent
 
 
 def write_report(scene: Scene, outcome: Outcome, folder: Path) -> None:
-    """Write a self-contained page about a run, on this process only.
-
-    Args:
-        scene: the scene.
-        outcome: of its run.
-        folder: of its results, complete except for the page.
-    """
+    """Write a self-contained page about a run, on this process only."""
     (folder / REPORT).write_text(
         rendered("page.html.jinja", page=report_page(scene, outcome, folder)), encoding="utf-8"
     )

@@ -14,14 +14,7 @@ from hydroelastic.scenes.roll.section_file import section_scene
 
 
 def check_roll(scene: RollScene) -> Iterator[Section]:
-    """Yield the equation, its constants, the unknowns, the waves and the method.
-
-    Args:
-        scene: a validated scene; nothing is solved.
-
-    Raises:
-        SceneError: if the scene of a section cannot be read.
-    """
+    """Yield the equation, its constants, the unknowns, the waves and the method."""
     yield Section(title="Equation", lines=tuple(_ship(scene)))
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     yield Section(title="Waves", lines=tuple(_waves(scene)))

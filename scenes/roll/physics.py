@@ -15,13 +15,7 @@ if TYPE_CHECKING:
 
 
 def rolling_ship(scene: RollScene, section: SectionRoll | None) -> Ship:
-    """Return k, n and d of the ship.
-
-    Args:
-        scene: the scene.
-        section: roll of its section, if it has one: it gives k, and in open water the wave damping, to which the
-            damping of the scene is added.
-    """
+    """Return k, n and d of the ship."""
     frequency = scene.natural_frequency if section is None else section.natural_frequency
     assert frequency is not None
     by_waves = 0.0 if section is None or section.damping is None else section.damping

@@ -17,11 +17,7 @@ if TYPE_CHECKING:
 
 
 def section_scene(scene: RollScene) -> TankScene:
-    """Return the scene of the section: a tank or open water with one body, a float that may roll.
-
-    Raises:
-        SceneError: if it cannot be read, or is another scene; it names the ship's file and key.
-    """
+    """Return the scene of the section: a tank or open water with one body, a float that may roll."""
     # SciPy takes a while to import, and most ships have no section.
     from hydroelastic.scenes.models.floats import placed_float
 
@@ -59,12 +55,7 @@ def _unusable(scene: RollScene, wrong: str, allowed: str = "") -> SceneError:
 
 
 def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
-    """Read and solve the section (collective).
-
-    Raises:
-        SceneError: if its scene, or the mesh that it names, cannot be used.
-        UnsolvedError: if it cannot be solved to its tolerance.
-    """
+    """Read and solve the section (collective)."""
     section = section_scene(scene)
     with watch.stage("import"):
         from hydroelastic.fem.section_roll import SectionRollError, section_roll

@@ -24,17 +24,7 @@ if TYPE_CHECKING:
 
 
 def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _message: None) -> RollResult:
-    """Solve for the motion of the ship (collective if there is a section).
-
-    Args:
-        scene: the scene.
-        comm: MPI communicator.
-        report: called with a word on what is being done.
-
-    Raises:
-        SceneError: if the section's scene cannot be used, or the requests are impossible with its natural frequency.
-        UnsolvedError: if the section, or a motion with quadratic damping, cannot be solved to its tolerance.
-    """
+    """Solve for the motion of the ship (collective if there is a section)."""
     watch = Stopwatch()
     section = solved_section(scene, comm, watch, report) if scene.roll.section is not None else None
     ship = rolling_ship(scene, section)
@@ -57,11 +47,7 @@ def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _messag
 
 
 def _check_with(scene: RollScene, natural_frequency: float) -> None:
-    """Check the requests of the scene, now that k is known.
-
-    Raises:
-        SceneError: if not.
-    """
+    """Check the requests of the scene, now that k is known."""
     ship = scene.roll.model_copy(update={"section": None, "natural_frequency": natural_frequency})
     known = scene.model_copy(update={"roll": ship})
     try:

@@ -15,14 +15,7 @@ from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 
 def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
-    """Yield what is asked, the tank, and the floats at rest.
-
-    Args:
-        scene: a validated scene; nothing is solved.
-
-    Raises:
-        SceneError: if it cannot be meshed.
-    """
+    """Yield what is asked, the tank, and the floats at rest."""
     asked = scene.accuracy
     _require_mesh(scene)
     outline = scene.bed

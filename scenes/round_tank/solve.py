@@ -14,12 +14,7 @@ from hydroelastic.scenes.models.round_tank import OrderedTankScene
 
 
 def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
-    """Solve a tank of revolution, or of one section over a width, and estimate it (collective).
-
-    Raises:
-        SceneError: if no mesh can be made.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a tank of revolution, or of one section over a width, and estimate it (collective)."""
     from hydroelastic.fem.solver_error import EigenSolverError
     from hydroelastic.fem.tank.round_solution import round_solution
     from hydroelastic.meshes.tagged_mesh import MeshError

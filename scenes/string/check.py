@@ -18,11 +18,7 @@ _MOTIONS = {
 
 
 def check_string(scene: StringScene) -> Iterator[Section]:
-    """Yield the equation, its constants, the unknowns, the motion of the upper end and the method.
-
-    Args:
-        scene: a validated scene; nothing is solved.
-    """
+    """Yield the equation, its constants, the unknowns, the motion of the upper end and the method."""
     yield Section(title="Equation", lines=tuple(_string(scene)))
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     yield Section(title="What is asked", lines=tuple(_request(scene)))

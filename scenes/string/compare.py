@@ -36,16 +36,7 @@ COMPARISON = Group("comparison", "the field solution beside the series, relative
 
 
 def compare_string(scene: StringScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a scene by series and by a field solution, and compare; writes nothing (collective).
-
-    Args:
-        scene: with a uniform resistance and nothing on the free end.
-        report: called with a word on what is being done.
-
-    Raises:
-        SceneError: if there is no series, or the motion is too fast or too long for a field solution.
-        UnsolvedError: if the eigen-solver of the field solution fails.
-    """
+    """Solve a scene by series and by a field solution, and compare; writes nothing (collective)."""
     if not scene.string.physical.has_closed_form:
         raise SceneError(
             Problem(
@@ -77,12 +68,7 @@ def _as_field(scene: StringScene) -> StringScene:
 
 
 def compared(field: StringSolution, series: StringSolution) -> Summary:
-    """Return the differences of two solutions of one scene, and the time of each.
-
-    Args:
-        field: the field solution.
-        series: the series, whose errors are far smaller.
-    """
+    """Return the differences of two solutions of one scene, and the time of each."""
     scale = series.largest or 1.0
     difference = np.abs(field.displacement - series.displacement) / scale
     away = ~field.beside_fronts

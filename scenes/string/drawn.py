@@ -20,9 +20,6 @@ def drawn_solution(result: StringResult) -> StringSolution:
     """Return the same motion at more positions and times, including the requested ones.
 
     A series is summed again. A field solution is drawn as it is, since computing it again is expensive.
-
-    Args:
-        result: at the positions and times of the scene.
     """
     scene, solution = result.scene, result.solution
     few_positions = len(solution.positions) < _ENOUGH_POSITIONS

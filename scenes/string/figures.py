@@ -145,5 +145,4 @@ def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
 
 
 def _drawn(solution: StringSolution) -> dict[str, Any]:
-    """Curves through few points show them."""
     return {"marker": "o" if len(solution.positions) <= _FEW_POSITIONS else None}

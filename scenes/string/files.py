@@ -35,7 +35,6 @@ def write_string_files(result: StringResult, folder: Path) -> None:
 
 
 def _frames(solution: StringSolution, count: int) -> Iterator[Frame]:
-    """The string at each frame as a line in the plane."""
     for number in frame_numbers(count, len(solution.times)):
         moved = solution.displacement[:, number]
         points = np.column_stack([moved, solution.positions, np.zeros(len(moved))])

@@ -46,7 +46,6 @@ def animate_string(solution: StringSolution, path: Path, options: PictureOptions
 def _frames(
     solution: StringSolution, numbers: Sequence[int], scale: float, dpi: float = 100.0
 ) -> Iterator[FigureCanvasAgg]:
-    """Canvases of the string at some of its times."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

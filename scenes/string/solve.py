@@ -19,16 +19,7 @@ if TYPE_CHECKING:
 
 
 def solve_string(scene: StringScene, comm: MPI.Comm, report: Report = lambda _message: None) -> StringResult:
-    """Solve for the displacement and the free motions by the method of the scene (collective).
-
-    Args:
-        scene: the scene.
-        comm: MPI communicator.
-        report: called with the name of each step.
-
-    Raises:
-        UnsolvedError: if the eigen-solver of a field solution fails.
-    """
+    """Solve for the displacement and the free motions by the method of the scene (collective)."""
     report(scene.method)
     if scene.method == "series":
         return StringResult(scene=scene, solution=solve_series(scene))
@@ -38,13 +29,7 @@ def solve_string(scene: StringScene, comm: MPI.Comm, report: Report = lambda _me
 def solve_series(
     scene: StringScene, positions: NDArray[np.float64] | None = None, times: NDArray[np.float64] | None = None
 ) -> StringSolution:
-    """Sum the series of a scene with a uniform resistance and no tip mass.
-
-    Args:
-        scene: the scene.
-        positions: heights, m, shape (positions,), in place of those of the scene.
-        times: times, s, shape (times,), in place of those of the scene.
-    """
+    """Sum the series of a scene with a uniform resistance and no tip mass."""
     return series_solution(
         scene.string.physical,
         end_motion(scene),
@@ -56,11 +41,7 @@ def solve_series(
 
 
 def solve_string_field(scene: StringScene, comm: MPI.Comm, report: Report = lambda _message: None) -> StringSolution:
-    """Solve a scene as a field, whatever its method (collective).
-
-    Raises:
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a scene as a field, whatever its method (collective)."""
     # A series needs neither dolfinx nor PETSc.
     from hydroelastic.fem.solver_error import EigenSolverError
     from hydroelastic.fem.string.solution import field_solution

@@ -43,7 +43,6 @@ def draw_study(study: Study, sheets: Sheets) -> None:
 
 
 def _draw_floor(panels: tuple[Axes, ...], study: Study) -> None:
-    """Shade where errors are rounding, or those of the reference."""
     if not study.rows:
         return
     floor = max(row.floor for row in study.rows)

@@ -58,18 +58,7 @@ class LevelStudy:
 
 
 def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report = lambda _message: None) -> LevelStudy:
-    """Solve a scene in each of its models to each tolerance (collective).
-
-    Args:
-        scene: the scene; its own tolerance plays no part.
-        plan: its tolerances are asked; its other series are of tanks per metre of width.
-        report: receives messages on the progress.
-
-    Raises:
-        SceneError: if no model takes the scene, it is solved in its volume, the plan asks for no tolerances, or it
-            cannot be meshed.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a scene in each of its models to each tolerance (collective)."""
     require_treated(scene)
     if "tolerance" not in plan.families:
         raise SceneError(
@@ -144,11 +133,7 @@ def level_study_table(study: LevelStudy) -> str:
 def write_level_study(
     study: LevelStudy, folder: Path, options: PictureOptions = DEFAULT_PICTURES, *, scene_file: Path | None = None
 ) -> None:
-    """Write tables, rows, figure and summary into a result folder, whole or not at all.
-
-    Raises:
-        SceneError: if the folder cannot be written.
-    """
+    """Write tables, rows, figure and summary into a result folder, whole or not at all."""
     with folder_errors(), result_folder(folder, scene_file=scene_file) as inside:
         (inside / "study.txt").write_text(level_study_table(study) + "\n", encoding="utf-8")
         (inside / "study.csv").write_text(level_study_csv(study), encoding="utf-8")

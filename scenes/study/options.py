@@ -24,14 +24,7 @@ _LONGEST_RANGE = 1000
 
 
 def plan_from_options(options: Mapping[str, str | None]) -> StudyPlan:
-    """Return the plan of the options of a command line.
-
-    Args:
-        options: text by attribute of `StudyPlan`; ``None`` where an option is not given.
-
-    Raises:
-        SceneError: naming each option that cannot be used, its value, what is allowed and an example.
-    """
+    """Return the plan of the options of a command line."""
     values: dict[str, Any] = {}
     problems: list[Problem] = []
     for name, text in options.items():

@@ -76,7 +76,6 @@ class StudyPlan:
     most_unknowns: int = 250_000
 
     def __post_init__(self) -> None:
-        """Check every value, and sort lists."""
         problems = _family_problems(self.families)
         for name, limits in LIMITS.items():
             problems += _number_problems(name, getattr(self, name), limits)
@@ -93,7 +92,6 @@ class StudyPlan:
 
 
 def _number_problems(name: str, given: Any, limits: Limits) -> list[Problem]:
-    """The first error of a number or a list of numbers."""
     many = name in ("degrees", "geometric_degrees", "tolerances")
     if many and not isinstance(given, list | tuple | range):
         return [Problem(key=name, value=shown_value(given), wrong="it is not a list", allowed=limits.words)]

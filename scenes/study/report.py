@@ -218,17 +218,7 @@ def study_csv(study: Study) -> str:
 def write_study(
     study: Study, folder: Path, options: PictureOptions = DEFAULT_PICTURES, *, scene_file: Path | None = None
 ) -> None:
-    """Write tables, rows, figure and summary into a result folder, whole or not at all.
-
-    Args:
-        study: what was found.
-        folder: made whole or not at all.
-        options: how the figures are drawn.
-        scene_file: where the scene was read; ``None`` if it was made in Python.
-
-    Raises:
-        SceneError: if the folder cannot be written.
-    """
+    """Write tables, rows, figure and summary into a result folder, whole or not at all."""
     with folder_errors(), result_folder(folder, scene_file=scene_file) as inside:
         sheets = Sheets(folder=inside, title=study.scene.title, options=options)
         (inside / "study.txt").write_text(study_table(study) + "\n", encoding="utf-8")

@@ -37,16 +37,13 @@ class Study:
     _write: Callable[..., None]
 
     def __str__(self) -> str:
-        """Return the tables as the command line prints them."""
         return self.text
 
     def __repr__(self) -> str:
-        """Return title, rows and status in one line."""
         title = title_of_scene(self.measured.scene)
         return f"<Study of {title!r}, {len(self.measured.rows)} solutions: {self.status}>"
 
     def _repr_html_(self) -> str:
-        """Return the tables, for notebooks."""
         return f"<pre>{html.escape(self.text)}</pre>"
 
     @property

@@ -60,20 +60,7 @@ class Study:
 
 
 def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Report = lambda _message: None) -> Study:
-    """Solve a scene in many ways and measure error and cost of each (collective).
-
-    Args:
-        scene: the scene; its own tolerance plays no part.
-        plan: what to solve; a minute of it by default.
-        report: receives messages on the progress.
-
-    Returns:
-        The rows and observed rates.
-
-    Raises:
-        SceneError: if the scene's ends are open, if it brings a mesh of its own, or if no mesh can be made.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a scene in many ways and measure error and cost of each (collective)."""
     closed_tank(scene, "a study measures the errors of frequencies of closed tanks")
     if scene.mesh is not None:
         raise SceneError(

@@ -62,7 +62,6 @@ class Grid:
     axes: tuple[Axis, ...]
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be swept."""
         keys = [axis.key for axis in self.axes]
         twice = next((key for key in keys if keys.count(key) > 1), None)
         if not keys:
@@ -75,7 +74,6 @@ class Grid:
             raise SceneError(_refused(f"{len(self)} points", "there are too many", f"At most {MOST_POINTS}"))
 
     def __len__(self) -> int:
-        """Return the number of points."""
         return prod(self.shape)
 
     @property
@@ -91,11 +89,7 @@ class Grid:
 
 
 def grid_from_values(vary: Vary) -> Grid:
-    """Return the grid of lists of values by key.
-
-    Raises:
-        SceneError: if a list is empty or the grid cannot be swept.
-    """
+    """Return the grid of lists of values by key."""
     if not isinstance(vary, Mapping):
         wrong = "it is not a dictionary of values by key"
         problem = Problem(key="vary", value=repr(vary)[:60], wrong=wrong, remedy=_EXAMPLE_IN_PYTHON, argument=True)
@@ -111,11 +105,7 @@ def grid_from_values(vary: Vary) -> Grid:
 
 
 def grid_from_texts(texts: Sequence[str]) -> Grid:
-    """Return the grid of the option --vary of the command line.
-
-    Raises:
-        SceneError: naming the text that cannot be used, and what is allowed.
-    """
+    """Return the grid of the option --vary of the command line."""
     return Grid(axes=tuple(_axis(text) for text in texts))
 
 

@@ -20,12 +20,7 @@ if TYPE_CHECKING:
 
 
 def sweep_variables(solved: SolvedSweep, of_points: Iterable[Variable]) -> list[Variable]:
-    """Return all quantities on the grid of a sweep, and the followed modes.
-
-    Args:
-        solved: the points.
-        of_points: their quantities.
-    """
+    """Return all quantities on the grid of a sweep, and the followed modes."""
     axes = solved.grid.axes
     along = tuple(axis.name for axis in axes)
 

@@ -41,7 +41,6 @@ def identity(scene: Scene) -> str:
 
 
 def _paths(value: Any) -> Iterator[Path]:
-    """All paths among the values of a scene."""
     if isinstance(value, Path):
         yield value
     elif isinstance(value, BaseModel):

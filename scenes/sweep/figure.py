@@ -27,15 +27,7 @@ _WIDTHS = 0.9, 5.0
 
 
 def draw_sweep(sweep: SweepContents, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
-    """Write ``sweep.png``, or other formats: a veering diagram, or curves, or maps over two keys.
-
-    Args:
-        sweep: what was found.
-        folder: an existing folder.
-        options: formats and sizes.
-        show: names of quantities; by default the followed modes if there are any along a single key, else the main
-            quantities of the kind of scene.
-    """
+    """Write ``sweep.png``, or other formats: a veering diagram, or curves, or maps over two keys."""
     solved = sweep.solved
     axes = solved.grid.axes
     names = shown_columns(sweep.columns, show)
@@ -134,7 +126,6 @@ def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> 
 
 
 def _draw_maps(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
-    """Quantities over two keys."""
     across, up = sweep.solved.grid.axes
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for panel, name in zip(panels, names, strict=True):
@@ -150,7 +141,6 @@ def _draw_maps(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> No
 
 
 def _named(sweep: SweepContents, column: str) -> str:
-    """A column with its unit."""
     found = [one for one in sweep.quantities if column == one.name or column.startswith(f"{one.name}_")]
     unit = max(found, key=lambda one: len(one.name)).attributes.get("units", "1") if found else "1"
     return column if unit == "1" else f"{column}, {unit}"

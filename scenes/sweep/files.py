@@ -30,11 +30,7 @@ ENCOUNTERS = "encounters.csv"
 
 
 def write_sweep(sweep: SweepContents, folder: Path, show: tuple[str, ...], images: PictureOptions | None) -> None:
-    """Write the result folder of a sweep on the first process (collective).
-
-    Raises:
-        SceneError: if the folder cannot be written, or a quantity cannot be drawn.
-    """
+    """Write the result folder of a sweep on the first process (collective)."""
     problem: BaseException | None = None
     if MPI.COMM_WORLD.rank == 0:
         try:

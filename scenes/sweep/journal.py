@@ -36,11 +36,9 @@ class Journal:
                     self._points[entry["key"]] = SolvedPoint.from_json(entry["point"])
 
     def __contains__(self, key: str) -> bool:
-        """Whether a point is there."""
         return key in self._points
 
     def __getitem__(self, key: str) -> SolvedPoint:
-        """Return a point."""
         return self._points[key]
 
     def share(self) -> None:
@@ -48,11 +46,7 @@ class Journal:
         self._points = MPI.COMM_WORLD.bcast(self._points)
 
     def add(self, key: str, point: SolvedPoint) -> None:
-        """Keep a point; what is on disk outlives this process.
-
-        Raises:
-            SceneError: if it cannot be written.
-        """
+        """Keep a point; what is on disk outlives this process."""
         self._points[key] = point
         if self._descriptor is None:
             return
@@ -69,15 +63,7 @@ class Journal:
 
 @contextlib.contextmanager
 def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Journal]:
-    """Open the journal in a result folder, and lock it for this sweep alone.
-
-    Args:
-        folder: the result folder, which is made; ``None`` keeps the points in memory only.
-        scene_file: the scene file, for the list of files.
-
-    Raises:
-        SceneError: if the folder cannot be written, or another sweep writes into it.
-    """
+    """Open the journal in a result folder, and lock it for this sweep alone."""
     if folder is None:
         yield Journal()
         return

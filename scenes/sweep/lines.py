@@ -53,15 +53,7 @@ def followed_lines(
     count: int,
     most: int,
 ) -> tuple[Line, ...]:
-    """Follow the modes along each line of a grid, none with few values or with values that are no numbers.
-
-    Args:
-        grid: the varied keys, the first with numbers.
-        points: in the order of the grid.
-        solve: solves more points.
-        count: number of modes, from the lowest, to follow with certainty.
-        most: number of points that may be added, on all lines together.
-    """
+    """Follow the modes along each line of a grid, none with few values or with values that are no numbers."""
     first = grid.axes[0]
     if not first.is_number or len(first.values) < _FEWEST:
         return ()

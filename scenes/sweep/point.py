@@ -119,7 +119,6 @@ def _solution(task: Task, options: PointOptions) -> Any:
 
 
 def _solved(task: Task, solution: Any, options: PointOptions) -> SolvedPoint:
-    """What is kept of a solution."""
     run, scene = runner_of(task.scene), task.scene
     outcome = run.outcome(scene, solution, tables=options.pictures is not None)
     if options.pictures is not None:

@@ -26,13 +26,7 @@ POINT = "point"
 def quantities(
     summaries: Sequence[Summary | None], arrays: Sequence[Sequence[Variable] | None], kind: Group
 ) -> list[Variable]:
-    """Return the values of all points.
-
-    Args:
-        summaries: content of ``summary.json`` of each point; ``None`` where it failed, which gives NaN and "".
-        arrays: further variables of each point, which are no part of its summary; ``None`` where it failed.
-        kind: the declared quantities of this kind of scene.
-    """
+    """Return the values of all points."""
     points = Group(POINT, "the points", kind.parts, dimension=POINT, prefix="")
     of_summaries = summary_variables({POINT: list(summaries)}, Group("", "a sweep", (points,)))
     parts = [list(numbered_along(POINT, part, number)) for number, part in enumerate(arrays, 1) if part]
@@ -46,10 +40,6 @@ def columns(variables: Iterable[Variable], most: int = 100) -> dict[str, np.ndar
 
     Entries along a further dimension are numbered from 1: ``omega_3`` is that of the third mode. Of complex numbers
     there is the magnitude: ``RAO_abs_5``.
-
-    Args:
-        variables: from `quantities`.
-        most: entries of a variable; one with more is left out.
     """
     found = {}
     for one in variables:
@@ -76,11 +66,7 @@ _NAMED = 12
 
 
 def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the columns to show: those asked for, or else the main ones of the kind of scene.
-
-    Raises:
-        SceneError: if there is no such column, or it does not hold numbers.
-    """
+    """Return the columns to show: those asked for, or else the main ones of the kind of scene."""
     numbers = [name for name in table if np.issubdtype(np.asarray(table[name]).dtype, np.number)]
     for name in show:
         if name.replace(".", "_") not in numbers:

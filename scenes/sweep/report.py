@@ -15,14 +15,7 @@ _WIDTH = 200
 
 
 def sweep_report(sweep: SweepContents, show: tuple[str, ...], folder: Path, *, replaces: bool) -> str:
-    """Return the main quantities of all points, and where the rest was written.
-
-    Args:
-        sweep: what was found.
-        show: names of the quantities; the main ones by default.
-        folder: the result folder.
-        replaces: whether it had files of an earlier run.
-    """
+    """Return the main quantities of all points, and where the rest was written."""
     console = text_console(_WIDTH)
     solved = sweep.solved
     headings, rows = sweep_rows(sweep, show)

@@ -33,7 +33,6 @@ class Sweep(SweepContents):
     """A scene solved for many values of its keys."""
 
     def __repr__(self) -> str:
-        """Return title, points and status in one line."""
         keys = " × ".join(axis.key for axis in self.solved.grid.axes)
         title = self.solved.scene.title or "Untitled scene"
         return f"<Sweep of {title!r} over {keys}, {len(self.solved.points)} points: {self.status}>"

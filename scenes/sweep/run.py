@@ -53,7 +53,6 @@ class SweepOptions:
     show: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be done."""
         if self.jobs < 1:
             raise SceneError(self._jobs_refused("it is too small", allowed="1 or more"))
         if self.jobs > 1 and MPI.COMM_WORLD.size > 1:

@@ -24,17 +24,7 @@ _FEWEST_OF_FAMILY = 1000
 
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
-    """Solve tasks, and yield each as soon as it is solved.
-
-    Args:
-        tasks: in the order in which they are begun.
-        options: the same for all.
-        jobs: number of processes; with 1 the points are solved in this one (collective), and few points that share
-            one liquid are so too.
-
-    Raises:
-        SceneError: if the processes cannot be started.
-    """
+    """Solve tasks, and yield each as soon as it is solved."""
     families = {task.family and task.family.name for task in tasks}
     if jobs == 1 or len(tasks) < (_FEWEST_OF_FAMILY if len(families) == 1 and None not in families else 2):
         for task in tasks:

@@ -37,13 +37,6 @@ def write_bodies(
     """Write a VTU file of surfaces of liquids and beams, as lines, and of floats, as polygons, at rest; in m.
 
     The array `part` of its cells is 1 on a free surface, 2 on an interface, 3 on a beam, 4 on a float.
-
-    Args:
-        path: path of the file in an existing folder.
-        surfaces: free surfaces, interfaces and beams.
-        floats: sections of floats.
-        arrays: values at all points, by name.
-        start: abscissa of x = 0 of the surfaces and floats, m.
     """
     points: list[Array] = [np.zeros((0, 3))]
     cells: list[tuple[str, NDArray[np.int64]]] = []

@@ -24,14 +24,7 @@ from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, h
 
 
 def check_tank(scene: TankParts) -> Iterator[Section]:
-    """Yield the description of a closed tank, the size of its model, and hints; only the built-in meshes are made.
-
-    Args:
-        scene: a validated scene.
-
-    Raises:
-        SceneError: if it cannot be meshed, or brings a mesh that cannot be read or does not fit it.
-    """
+    """Yield the description of a closed tank, the size of its model, and hints; only the built-in meshes are made."""
     try:
         sizes = tuple(_sizes(scene))
     except MeshError as error:
@@ -40,13 +33,7 @@ def check_tank(scene: TankParts) -> Iterator[Section]:
 
 
 def modelled_tank(scene: TankParts, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
-    """Yield the surfaces, the unknown fields, the dimensionless groups, hydrostatics of floats, and hints.
-
-    Args:
-        scene: a validated scene, closed or open.
-        requests: lines that say what is asked.
-        scale: how large the model is, or how long its waves are.
-    """
+    """Yield the surfaces, the unknown fields, the dimensionless groups, hydrostatics of floats, and hints."""
     yield Section(title="What is asked", lines=tuple(requests))
     yield boundary_table(scene)
     yield unknown_table(scene)

@@ -52,12 +52,7 @@ class SampledTank:
 
 
 def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:
-    """Solve a closed tank and estimate it (collective); `liquids` makes its mesh and matrices.
-
-    Raises:
-        SceneError: if the scene's ends are open, or its mesh does not fit it.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a closed tank and estimate it (collective); `liquids` makes its mesh and matrices."""
     closed_tank(scene, "the estimates of the older theories are those of closed tanks")
     watch = Stopwatch()
     with watch.stage("estimates"):
@@ -127,11 +122,6 @@ run_tank = StagedRun(
 
 
 def compare_tank(scene: TankScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a closed tank and compare, with what each estimate neglects; writes nothing (collective).
-
-    Raises:
-        SceneError: if the scene's ends are open, or its mesh does not fit it.
-        UnsolvedError: if the eigen-solver fails.
-    """
+    """Solve a closed tank and compare, with what each estimate neglects; writes nothing (collective)."""
     outcome = run_tank(scene, report=report)
     return replace(outcome, sections=tuple(compared_sections(run_tank.read(outcome.summary))), notes=True)

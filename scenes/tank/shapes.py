@@ -103,11 +103,6 @@ def write_fields(shapes: ModeShapes, omegas: list[float], folder: Path) -> None:
     ``modes.vtu`` has ψ, ∇ψ and the number of each cell's liquid; ``bodies.vtu``, of surfaces, beams and floats, their
     displacements under the same names. ``modes.pvd`` plays the modes, ``bodies_001.vtu`` and so on, by their
     frequencies.
-
-    Args:
-        shapes: of the modes.
-        omegas: frequencies of those that do not grow, rad/s.
-        folder: a new folder.
     """
     folder.mkdir()
     data = {}

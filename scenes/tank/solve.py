@@ -57,11 +57,7 @@ def solve_scene(
     liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> TankSolution:
-    """Solve a scene to its tolerance; see `fem.tank.solve.solve_tank` (collective).
-
-    Raises:
-        MeshError: if the scene names a mesh and none is given on rank 0, or the mesh does not fit.
-    """
+    """Solve a scene to its tolerance; see `fem.tank.solve.solve_tank` (collective)."""
     comm = comm or MPI.COMM_WORLD
     if scene.mesh is not None and not comm.bcast(mesh is not None, root=0):
         raise MeshError(f"the scene brings the mesh {scene.mesh.file}: load it and hand it over")

@@ -12,11 +12,7 @@ from hydroelastic.scenes.models.tank_parts import TankParts
 
 
 def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
-    """Return the user mesh of a scene, in m; ``None`` without one.
-
-    Raises:
-        SceneError: if it cannot be read, or does not fit the scene.
-    """
+    """Return the user mesh of a scene, in m; ``None`` without one."""
     if scene.mesh is None:
         return None
     from hydroelastic.meshes.files import load_mesh  # meshio takes a while to import
@@ -31,11 +27,7 @@ def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
 
 
 def user_mesh(scene: TankParts, comm: MPI.Comm) -> TaggedMesh | None:
-    """Return the user mesh of a scene on rank 0, in m; ``None`` elsewhere, and without one (collective).
-
-    Raises:
-        SceneError: on all processes, if it cannot be read, or does not fit the scene.
-    """
+    """Return the user mesh of a scene on rank 0, in m; ``None`` elsewhere, and without one (collective)."""
     if scene.mesh is None:
         return None
     mesh, refused = None, None

@@ -22,11 +22,7 @@ _PLACES = 1001
 
 
 def check_thread(scene: ThreadScene) -> Iterator[Section]:
-    """Yield the equations, unknown fields, stream, ends and loads, and analyses.
-
-    Args:
-        scene: a validated scene; nothing is solved.
-    """
+    """Yield the equations, unknown fields, stream, ends and loads, and analyses."""
     yield Section(title="Equations", lines=tuple(_thread(scene)))
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
     yield Section(title="Stream", lines=tuple(_stream(scene)))

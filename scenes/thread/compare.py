@@ -16,15 +16,7 @@ from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 
 def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a scene and compare the solution with all estimates that apply; writes nothing (collective).
-
-    Args:
-        scene: the scene; its motions in time are left out, of which there is no estimate.
-        report: called with the name of each step.
-
-    Raises:
-        UnsolvedError: if the field solution fails.
-    """
+    """Solve a scene and compare the solution with all estimates that apply; writes nothing (collective)."""
     comm = MPI.COMM_WORLD
     at_rest = scene.model_copy(update={"analysis": tuple(asked for asked in scene.analysis if asked.kind != "motion")})
     solution = solve_thread_scene(at_rest, comm, report)

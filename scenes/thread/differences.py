@@ -31,10 +31,6 @@ def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Foun
 
     A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
     of what the theory leaves out, together.
-
-    Args:
-        solution: the field solution.
-        estimates: of the same scene.
     """
     rest = solution.rest
     return {
@@ -85,7 +81,6 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
 
 
 def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
-    """Compare the values that the field solution has, too."""
     fields = compared_values(solution, found)
     entries = [
         {
@@ -103,5 +98,4 @@ def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, 
 
 
 def _plain(value: Any) -> Any:
-    """A number, or the real and imaginary parts of a complex one."""
     return [float(value.real), float(value.imag)] if np.iscomplexobj(value) else float(value)

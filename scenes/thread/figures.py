@@ -71,7 +71,6 @@ def _animate(solution: ThreadSolutionOfScene, folder: Path, *, width: int) -> No
 
 
 def _draw_tension(solution: ThreadSolutionOfScene, sheets: Sheets) -> None:
-    """Tension along the thread."""
     tensions, unit = tensions_at_rest(solution)
     with sheets.sheet("tension", "tension at rest", width=8.0) as figure:
         axes = figure.subplots()
@@ -172,7 +171,6 @@ def _draw_motion(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
 
 
 def _draw_tension_in_time(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
-    """Of all steps, between the output times too."""
     extremes, times = motion.extremes, motion.step_ends
     unit, size = tension_unit(np.concatenate([extremes.highest, extremes.lowest]))
     with sheets.sheet(name, "tension in time", width=9.0, height=4.8) as figure:

@@ -50,7 +50,6 @@ def write_thread_files(solution: ThreadSolutionOfScene, folder: Path) -> None:
 
 
 def _vector(name: str, values: Floats) -> dict[str, Floats]:
-    """The components of vectors as columns."""
     return {f"{name}{axis}": component for axis, component in zip("xyz", values.T, strict=True)}
 
 

@@ -97,7 +97,6 @@ def tensions_at_rest(solution: ThreadSolutionOfScene) -> tuple[Floats, str]:
 def _in_time(
     solution: ThreadSolutionOfScene, motion: MotionInSpace, numbers: Sequence[int]
 ) -> tuple[LineView, list[DrawnLine]]:
-    """A motion at some of its times."""
     name, size = tension_unit(motion.tensions)
     tensions = np.asarray(motion.tensions / size)
     asked = solution.scene.motions[next(i for i, one in enumerate(solution.motions) if one is motion)]
@@ -127,7 +126,6 @@ def _drawn(
     released: tuple[str, ...] = (),
     note: str = "",
 ) -> DrawnLine:
-    """The thread with marks at ends that are held, and at bodies."""
     scene, s = solution.scene, np.linspace(0.0, solution.scene.thread.length, len(points))
     s = solution.s if len(points) == len(solution.s) else s
     ends = {"a": (scene.ends.a, points[:1]), "b": (scene.ends.b, points[-1:])}

@@ -123,13 +123,8 @@ _BELOW = 1e-3
 
 
 def no_sea_bed(scene: ThreadScene, heights: Sequence[float], lowest: float) -> str | None:
-    """Say that no sea bed is modelled if a line in a liquid hangs below its lower end, which is fixed as an anchor is.
-
-    Args:
-        scene: the scene.
-        heights: z of the ends A and B, m; of equal ones, as of a cable between masts, neither is the lower.
-        lowest: z of the lowest point of the line, m.
-    """
+    """Say that no sea bed is modelled if a line in a liquid hangs below its lower end, which is fixed as an anchor
+    is."""
     length, (lower, upper) = scene.thread.length, sorted(heights)
     end = scene.ends.a if heights[0] == lower else scene.ends.b
     # With a mass and without a liquid it hangs in air, where there is no sea bed.

@@ -30,19 +30,7 @@ _NOT_FOUND = {"modes": "the modes could not be found", "stability": "the stabili
 
 
 def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> ThreadSolutionOfScene:
-    """Solve a scene for its equilibrium, and then for each of its analyses.
-
-    Args:
-        scene: the scene.
-        comm: the processes.
-        report: is called with the name of each step.
-
-    Returns:
-        The solution (collective).
-
-    Raises:
-        UnsolvedError: if an analysis cannot be solved.
-    """
+    """Solve a scene for its equilibrium, and then for each of its analyses."""
     watch, thread, frame, tolerance = Stopwatch(), thread_of(scene), frame_of(scene), scene.accuracy.tolerance
     report("equilibrium")
     with watch.stage("equilibrium"):
@@ -92,11 +80,7 @@ def _failures_in_words(asked: analyses.ThreadAnalysis | None = None) -> Iterator
 
 
 def equilibrium_of(comm: MPI.Comm, scene: ThreadScene) -> FoundEquilibrium:
-    """Return the equilibrium of a scene in its frame (collective).
-
-    Raises:
-        UnsolvedError: if none is found.
-    """
+    """Return the equilibrium of a scene in its frame (collective)."""
     with _failures_in_words():
         return find_equilibrium(comm, thread_of(scene), frame_of(scene), scene.accuracy.tolerance)
 

@@ -30,6 +30,7 @@ def moved(document: dict[str, Any]) -> tuple[dict[str, Any], Any]:
     return told, result.dataset
 
 
+@pytest.mark.slow
 def test_a_bob_on_a_thread_is_a_pendulum() -> None:
     """Case D01: after three quarters of its period it passes the lowest point, with the speed of its fall."""
     period, angle = results("D01")["period"], np.deg2rad(60.0)
@@ -129,6 +130,7 @@ def test_energy_lost_is_what_the_drag_takes() -> None:
     assert told["energy_at_start"] == pytest.approx(energies[0])
 
 
+@pytest.mark.slow
 def test_generalised_alpha_is_of_second_order() -> None:
     tips = []
     for step in (0.01, 0.005, 0.0025):
@@ -139,6 +141,7 @@ def test_generalised_alpha_is_of_second_order() -> None:
     assert np.log2(changes[0] / changes[1]) == pytest.approx(2.0, abs=0.15)
 
 
+@pytest.mark.slow
 def test_stated_errors_cover_the_true_ones() -> None:
     thread = CHAIN | {"diameter": DIAMETER, "normal_drag": 0.112, "tangential_drag": 0.02, "added_mass": 0.4}
     rough, fine = (
@@ -177,6 +180,7 @@ def test_small_motions_are_those_of_the_hanging_string(tmp_path: Path) -> None:
     assert np.abs(found).max() > 5e-4
 
 
+@pytest.mark.slow
 def test_towed_through_still_water_it_trails_as_in_a_current() -> None:
     """A short line led at −U comes to the shape that the current U gives to it."""
     thread = CHAIN | {"diameter": 0.05, "normal_drag": 1.2, "tangential_drag": 0.02, "added_mass": 1.0, "weight": 20.0}

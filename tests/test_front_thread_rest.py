@@ -24,6 +24,7 @@ TWICE = {"S07": pytest.mark.mpi, "S16a": pytest.mark.mpi, "S19b": pytest.mark.mp
 NAMES = ["S01", "S03", "S05", "S07", "S08", "S10", "S12", "S14", "S16a", "S17", "S19b", "A02", "A04"]
 
 
+@pytest.mark.slow_but("S03", "S07", "S08", "S12", "S14", "S16a", "S19b")
 @pytest.mark.slow_on_ranks_but("S16a")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=TWICE.get(name, ())) for name in NAMES])
 def test_the_catalogue_is_met_within_the_stated_errors(name: str) -> None:
@@ -51,6 +52,7 @@ def test_the_catalogue_is_met_within_the_stated_errors(name: str) -> None:
             assert np.linalg.norm(np.asarray(computed) - value) <= allowed, key
 
 
+@pytest.mark.slow
 def test_a_rougher_solution_states_its_error() -> None:
     """Everywhere along the thread, beside a solution to 1e-9."""
     for name in ("S03", "S07", "S12"):
@@ -136,6 +138,7 @@ def test_its_ends_can_change_their_names(original: he.Result) -> None:
     assert swapped.reaction.values[::-1] == pytest.approx(original.dataset.reaction.values, abs=4e-9 * 1500.0)
 
 
+@pytest.mark.slow
 def test_nearly_inextensible_is_inextensible_and_a_plane_is_space() -> None:
     """EA = 1e12 N moves nothing by more than T/EA; a breath of stream across makes three dimensions of two."""
     document = case("S12", tolerance=1e-9)

@@ -110,6 +110,7 @@ def test_linear_damping_does_not_depend_on_the_height_of_the_wave() -> None:
     assert by_drag[0].amplitudes == pytest.approx(by_drag[1].amplitudes, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_the_energy_balance_holds_with_all_of_it_and_damping_only_takes_power() -> None:
     moorings = [
         {"at": [-1.0, -0.5], "stiffness": [[400.0, 100.0, 0.0], [100.0, 900.0, 0.0], [0.0, 0.0, 0.0]]},

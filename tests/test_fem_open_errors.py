@@ -331,7 +331,8 @@ def test_waves_that_are_left_out_make_a_spectrum_unconverged() -> None:
     assert spectrum.truncation_error > 0.2 * beyond * 0.25 / spectrum.significant_amplitude**2 * 2.0
 
 
-@pytest.mark.parametrize("omega", [0.3, pytest.param(0.8, marks=pytest.mark.slow), 1.3])
+@pytest.mark.slow_but("0.3")
+@pytest.mark.parametrize("omega", [0.3, 0.8, 1.3])
 def test_errors_by_a_damper_of_rotation_at_the_end_of_a_soft_beam_are_told(omega: float) -> None:
     """Its moment bends the beam in all dry modes: the slope there falls like 1/N."""
     beam = {"length": 30.0, "flexural_rigidity": 1.2e6, "mass_per_length": 600.0}

@@ -189,6 +189,7 @@ def test_water_rises_as_far_waves_and_the_motion_of_the_point_say() -> None:
     assert gap.significant_relative_elevation == pytest.approx(2.0 * abs(passed), rel=3e-2)
 
 
+@pytest.mark.slow_but("left-*")
 @pytest.mark.parametrize(("waves_from", "towards"), [("left", 1.0), ("right", -1.0)])
 def test_the_free_top_of_two_liquids_rises_less_than_the_interface(waves_from: str, towards: float) -> None:
     """η/ζ = ω²/(ω² cosh kh − gk sinh kh) of the top at h above an interface on which a wave ζ travels.

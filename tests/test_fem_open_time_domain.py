@@ -140,6 +140,7 @@ def test_a_release_over_time_is_the_decay_of_the_frequency_domain() -> None:
     np.testing.assert_allclose(motion.displacement, decay.displacement, rtol=0.0, atol=TOLERANCE * 0.1)
 
 
+@pytest.mark.slow
 def test_a_moored_float_that_is_pulled_aside_swings_back_at_its_resonance() -> None:
     body = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0, "motions": ["sway"]}
     times = tuple(np.linspace(0.0, 40.0, 801).tolist())

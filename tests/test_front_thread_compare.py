@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from any_scenes import as_toml
+from mutated_scenes import as_toml
 from command import run_command
 from thread_scenes import fixed, free, scene
 

@@ -247,6 +247,7 @@ def test_divergence_grows_with_tension_and_with_clamps() -> None:
     assert_threshold(found, "divergence", 2.0 * np.pi)
 
 
+@pytest.mark.slow
 def test_a_hose_flutters_at_the_speed_of_a_pipe() -> None:
     """M09, of which eight digits are known; m + M = EI = L = 1 but for masses of 1 kg/m each."""
     speed, frequency = results("M09")["beta=0.5"]

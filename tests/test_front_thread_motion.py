@@ -154,6 +154,7 @@ def test_stated_errors_cover_the_true_ones() -> None:
     assert rough[0]["steps"] < fine[0]["steps"]
 
 
+@pytest.mark.slow
 def test_small_motions_are_those_of_the_hanging_string(tmp_path: Path) -> None:
     """Another model of the same thing: a chain with a body in a viscous liquid, its upper end led by a table."""
     times = np.linspace(0.0, 2.0, 81)

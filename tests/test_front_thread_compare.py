@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mutated_scenes import as_toml
 from command import run_command
+from mutated_scenes import as_toml
 from thread_scenes import fixed, free, scene
 
 STREAM = {"density": 1000.0, "velocity": [1.0, 0.0]}

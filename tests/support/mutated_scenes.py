@@ -121,7 +121,8 @@ def _mutate(holder: Any, key: Any, chance: random.Random) -> None:
 def _scale(holder: Any, key: Any, chance: random.Random) -> None:
     value = holder[key]
     factor = chance.choice(FACTORS) if chance.random() < 0.5 else 10.0 ** chance.uniform(-2.0, 2.0)
-    holder[key] = type(value)(min(max(value * factor, -1e300), 1e300))
+    bounded = min(max(value, -1e300), 1e300)  # a whole number may be too large for a float
+    holder[key] = type(value)(min(max(bounded * factor, -1e300), 1e300))
 
 
 def places(value: Any) -> Iterator[tuple[Any, Any]]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 from petsc4py import PETSc
 
@@ -56,13 +54,6 @@ def _set_unit(vector: PETSc.Vec, index: int) -> None:
     vector.set(0.0)
     vector.setValue(index, 1.0)
     vector.assemble()
-
-
-class Operator(Protocol):
-    """A matrix by its products."""
-
-    def mult(self, matrix: PETSc.Mat | None, vector: PETSc.Vec, result: PETSc.Vec, /) -> None:
-        """``result`` ← product with ``vector``."""
 
 
 class CondensedKinetics:

@@ -96,19 +96,6 @@ def rectangle_modes(
     )
 
 
-def bending_energies(
-    size: tuple[float, float], poisson_ratio: float, coefficients: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return a(w, w) of Σ c_mn p_m(x) p_n(y), for coefficients of shape (functions, m, n)."""
-    sides = [_side_matrices(np.eye(count), side) for count, side in zip(coefficients.shape[1:], size, strict=True)]
-    (_, slope_x, bend_x, mixed_x), (_, slope_y, bend_y, mixed_y) = sides
-    image = bend_x @ coefficients + coefficients @ bend_y
-    image += 2.0 * (1.0 - poisson_ratio) * (slope_x @ coefficients @ slope_y)
-    image += poisson_ratio * (mixed_x @ coefficients @ mixed_y + mixed_x.T @ coefficients @ mixed_y.T)
-    energies: NDArray[np.float64] = (coefficients * image).sum(axis=(1, 2))
-    return energies
-
-
 def _of_parity(basis: NDArray[np.float64], parity: AxisParity) -> NDArray[np.float64]:
     """The even or the odd ones of a basis, in polynomials of both parities."""
     if parity is None:

@@ -23,7 +23,7 @@ from hydroelastic.meshes.session_folder import remove_session_folder
 remove_session_folder()
 
 if TYPE_CHECKING:
-    from hydroelastic.output.pictures.options import PictureOptions
+    from hydroelastic.output.plots import PictureOptions
     from hydroelastic.scenes.errors import SceneError, UnsolvedError
     from hydroelastic.scenes.models import (
         Accuracy,
@@ -69,7 +69,7 @@ __all__ = [
 ]
 
 _ELSEWHERE = {
-    "PictureOptions": "output.pictures.options",
+    "PictureOptions": "output.plots",
     **dict.fromkeys(("Result", "load", "solve"), "scenes.result"),
     **dict.fromkeys(("Study", "study"), "scenes.study.result"),
     **dict.fromkeys(("Sweep", "sweep"), "scenes.sweep.result"),

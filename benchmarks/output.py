@@ -23,7 +23,7 @@ from hydroelastic.benchmarks.tank.figure import draw_speed
 from hydroelastic.benchmarks.tank.report import speed_csv, speed_markdown
 from hydroelastic.benchmarks.thread.figure import draw_threads
 from hydroelastic.benchmarks.thread.report import threads_csv, threads_markdown
-from hydroelastic.output.pictures.curves import Sheets
+from hydroelastic.output.plots import Sheets
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
@@ -26,6 +26,120 @@ _EQUAL = 1e-9
 _STILL = 1e-6
 
 Array = NDArray[np.float64]
+Beyond: TypeAlias = Literal["sides", "bottom", "top"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceCurve:
+    """A displaced piece of a still level.
+
+    Attributes:
+        kind: what is there.
+        x: abscissae, increasing, shape (points,).
+        displacement: upwards, of a mode in its arbitrary scale, of a motion e^{−iωt} complex, shape (points,).
+        level: ordinate at rest.
+    """
+
+    kind: Literal["free_surface", "interface", "body"]
+    x: Array
+    displacement: Array
+    level: float = 0.0
+
+    def scaled(self, length: float, factor: float, start: float = 0.0) -> SurfaceCurve:
+        """The curve with its place multiplied by a length and moved, and its displacement by a factor."""
+        x, displacement = start + length * self.x, factor * self.displacement
+        return replace(self, x=x, level=self.level * length, displacement=displacement)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloatSection:
+    """The section of a rigid float.
+
+    Attributes:
+        contour: corners of a closed polygon at rest, the first not repeated, shape (points, 2).
+        displacement: of them as that of a surface, shape (points, 2).
+        waterplane: abscissae at which surfaces of liquids meet it from the left and from the right.
+        slit: lower and upper end of the line on which a thin float acts, shape (2, 2); ``None`` where the float
+            displaces liquid.
+    """
+
+    contour: Array
+    displacement: Array
+    waterplane: tuple[float, float]
+    slit: Array | None = None
+
+    def scaled(self, length: float, factor: float, start: float = 0.0) -> FloatSection:
+        """The float with its place multiplied by a length and moved, and its displacement by a factor."""
+        left, right = self.waterplane
+        return FloatSection(
+            contour=self.contour * length + [start, 0.0],
+            displacement=factor * self.displacement,
+            waterplane=(left * length + start, right * length + start),
+            slit=None if self.slit is None else self.slit * length + [start, 0.0],
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SectionField:
+    """A motion of one liquid or two in a rectangle −depth ≤ y ≤ upper_depth to be drawn, in m.
+
+    Attributes:
+        points: shape (points, 2).
+        triangles: shape (triangles, 3).
+        liquid: of each triangle: 1 is the lowest, shape (triangles,).
+        potential: displacement potential ψ, of a motion e^{−iωt} complex, shape (points,).
+        displacement: ∇ψ, shape (points, 2).
+        surfaces: the pieces of the still levels that move.
+        title: one line of text.
+        length: of the rectangle.
+        depth: of the lower liquid.
+        upper_depth: of the upper liquid; 0 where there is none.
+        floats: the rigid floats.
+        densities: of the lower and the upper liquid in kg/m³; empty where there is only one.
+        lid: pieces of a rigid top, left and right end.
+        goes_on: where the liquids go on beyond what is given, instead of a wall or a bottom.
+        start: abscissa of the left end.
+        amplitude: the scale of the motion in words; empty for an arbitrary one, of unit generalized mass.
+    """
+
+    points: Array
+    triangles: NDArray[np.integer]
+    liquid: NDArray[np.integer]
+    potential: Array
+    displacement: Array
+    surfaces: tuple[SurfaceCurve, ...]
+    title: str
+    length: float
+    depth: float
+    upper_depth: float = 0.0
+    floats: tuple[FloatSection, ...] = ()
+    densities: tuple[float, ...] = ()
+    lid: tuple[tuple[float, float], ...] = ()
+    goes_on: frozenset[Beyond] = frozenset()
+    start: float = 0.0
+    amplitude: str = ""
+
+    def mapped(self, function: Callable[[Array], Array]) -> SectionField:
+        """The field with a function of its values."""
+        return replace(
+            self,
+            potential=function(self.potential),
+            displacement=function(self.displacement),
+            surfaces=tuple(replace(one, displacement=function(one.displacement)) for one in self.surfaces),
+            floats=tuple(replace(one, displacement=function(one.displacement)) for one in self.floats),
+        )
+
+    def at(self, part: float) -> SectionField:
+        """The motion after a part of a period."""
+        return self.mapped(lambda values: (values * np.exp(-2j * np.pi * part)).real)
+
+    @property
+    def pressure(self) -> Array:
+        """ψ of one liquid, or ρψ, the dynamic pressure over ω², which compares across the interface."""
+        weight = np.ones(len(self.points))
+        for number, density in enumerate(self.densities, 1):
+            weight[self.triangles[self.liquid == number]] = density
+        return weight * self.potential
 
 
 def wave_levels(tank: Tank) -> tuple[StillLevel, ...]:

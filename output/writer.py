@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from pathlib import Path
 
 from mpi4py import MPI
@@ -12,7 +11,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
-from hydroelastic.output.pictures.rendering import NoRendererError
+from hydroelastic.output.plots import NoRendererError
 from hydroelastic.output.provenance import TIMING, Summary, read_summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.variables import Variable
@@ -49,7 +48,7 @@ def write_results(
                 parts(shared)
     elif comm.rank == 0:
         try:
-            with result_folder(out, scene_file=scene_file) as folder, ExitStack() as drawing:
+            with result_folder(out, scene_file=scene_file) as folder:
                 with watch.stage("write"):
                     report("tables")
                     tables(folder)
@@ -62,23 +61,19 @@ def write_results(
                     with watch.stage("draw"):
                         report("pictures")
                         (folder / "images").mkdir()
-                        from hydroelastic.output.pictures.page import saving  # needs matplotlib
-
-                        drawing.enter_context(saving())
                         try:
                             pictures(folder / "images")
                         except NoRendererError as error:
-                            drawing.close()
-                            shutil.rmtree(folder / "images")
-                            warnings.append(f"no images: {error}")
+                            warnings.append(f"no images of fields: {error}")
+                            with suppress(OSError):
+                                # Curves stay.
+                                (folder / "images").rmdir()
                 read_summary(summary)[TIMING].update(watch.seconds)
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.
                 variables = complete_variables(labelled, summary, kind)
                 write_dataset(folder / DATASET, variables, {**global_attributes(summary), **attributes})
-                # The last page is written beside the dataset.
-                drawing.close()
                 if page is not None:
                     report("page")
                     page(folder, tuple(warnings))

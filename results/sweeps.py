@@ -13,7 +13,7 @@ from pathlib import Path
 
 from regenerate import keep_picture
 
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.scenes.sweep.axes import grid_from_texts
 from hydroelastic.scenes.sweep.result import Sweep
 from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep

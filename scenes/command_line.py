@@ -20,7 +20,7 @@ import click
 from hydroelastic.meshes.interrupts import end_on_interrupt
 from hydroelastic.output.folder import results_message
 from hydroelastic.output.manifest import read_manifest
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
+from hydroelastic.output.plots import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.output.provenance import warnings_of
 from hydroelastic.scenes.command_options import (
     animate_option,

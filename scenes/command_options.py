@@ -7,7 +7,7 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from hydroelastic.output.pictures.options import (
+from hydroelastic.output.plots import (
     CURVE_FORMATS,
     DEFAULT_PICTURES,
     DPI_LIMITS,

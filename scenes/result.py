@@ -18,7 +18,7 @@ from hydroelastic.output.dataset import DATASET, read_dataset
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.open_water import quantities as water
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.output.provenance import SCENE, STATUS, Summary, read_summary
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section, printed_sections, read_markdown_sections, title_of

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.read import Scene
 

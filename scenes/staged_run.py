@@ -13,7 +13,7 @@ from pydantic import BaseModel
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOption, PictureOptions
 from hydroelastic.output.provenance import TIMING, Solved, Summary, read_summary, summarize
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.reading import Reading

@@ -10,8 +10,8 @@ from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.tank.cases import tank_named
-from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
+from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
+from hydroelastic.output.plots import GREY, Sheets, label_axes
 
 _STYLES: dict[tuple[Code, Variant], tuple[CurveStyle, str]] = {
     ("hydroelastic", "certified"): (

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,12 +11,21 @@ from hydroelastic.fem.cells import cell_corners, owned_cells
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.fields import OpenField
-from hydroelastic.fem.pictures.mode import Beyond, ModePicture
-from hydroelastic.fem.pictures.wave import WavePicture
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
-from hydroelastic.fem.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
+from hydroelastic.fem.shape_curves import (
+    Beyond,
+    FloatSection,
+    SectionField,
+    SurfaceCurve,
+    body_shapes,
+    sample_level,
+    wave_curves,
+    wave_levels,
+)
 from hydroelastic.meshes.geometry import BOTTOM, LID
 from hydroelastic.physics.tank import StillLevel, Tank
+
+_Moving = TypeVar("_Moving", SurfaceCurve, FloatSection)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +40,7 @@ class SampledField:
         potential: displacement potential ψ, m², complex, shape (points,).
         displacement: ∇ψ, m, complex, shape (points, 2).
         pressure: ρω²ψ, Pa, complex, shape (points,).
-        picture: what is drawn; its x begins at the left end of what is drawn.
+        picture: what is drawn.
         omega: ω, rad/s; with a negative imaginary part of a decaying motion.
     """
 
@@ -41,7 +51,7 @@ class SampledField:
     potential: np.ndarray
     displacement: np.ndarray
     pressure: np.ndarray
-    picture: WavePicture
+    picture: SectionField
     omega: complex
 
 
@@ -68,10 +78,7 @@ def sample_field(field: OpenField) -> SampledField | None:
         potential=potential,
         displacement=displacement,
         pressure=densities[_layers(sample)] * omega**2 * potential,
-        picture=WavePicture(
-            real=_picture(field, sample, levels, potential.real, displacement.real, 0),
-            imaginary=_picture(field, sample, levels, potential.imag, displacement.imag, 1),
-        ),
+        picture=_picture(field, sample, levels, potential, displacement),
         omega=omega,
     )
 
@@ -124,28 +131,41 @@ def _picture(
     levels: list[tuple[StillLevel, SurfaceTrace]],
     potential: np.ndarray,
     displacement: np.ndarray,
-    part: int,
-) -> ModePicture:
-    """The real part (0) or the imaginary part (1) of a field."""
-    basin, tank = field.model.basin, field.model.basin.tank
+) -> SectionField:
+    basin, tank, bodies = field.model.basin, field.model.basin.tank, field.model.pencil.bodies
     length = basin.units.length
-    bodies = body_shapes(tank, field.model.pencil.bodies, (field.bodies.real, field.bodies.imag)[part])
-    waves = [wave for level, trace in levels for wave in wave_curves(level, trace, part, 1.0)]
+    surfaces: list[tuple[SurfaceCurve, ...]] = []
+    floats: list[tuple[FloatSection, ...]] = []
+    for part, amplitudes in enumerate((field.bodies.real, field.bodies.imag)):
+        shapes = body_shapes(tank, bodies, amplitudes)
+        waves = (wave for level, trace in levels for wave in wave_curves(level, trace, part, 1.0))
+        surfaces.append((*shapes.beams, *waves))
+        floats.append(shapes.floats)
+
+    def joined(pairs: list[tuple[_Moving, ...]]) -> tuple[_Moving, ...]:
+        return tuple(
+            replace(real, displacement=real.displacement + 1j * imaginary.displacement).scaled(
+                length, field.metres, basin.origin
+            )
+            for real, imaginary in zip(*pairs, strict=True)
+        )
+
     two, beyond, top = len(tank.layers) > 1, _beyond(basin.sides), tank.levels[-1]
     lid = [piece for piece in top.pieces if top.kind == "rigid" and piece.body is None and "top" not in beyond]
-    return ModePicture(
-        points=length * sample.points,
+    return SectionField(
+        points=length * sample.points + [basin.origin, 0.0],
         triangles=sample.triangles,
+        liquid=sample.liquid,
         potential=potential,
         displacement=displacement,
-        surfaces=tuple(curve.scaled(length, field.metres) for curve in (*bodies.beams, *waves)),
-        floats=tuple(section.scaled(length, field.metres) for section in bodies.floats),
+        surfaces=joined(surfaces),
+        floats=joined(floats),
         title=field.title,
         length=length,
         depth=length * tank.layers[0].depth,
         upper_depth=length * tank.layers[1].depth if two else 0.0,
         densities=(basin.layers.density_below, basin.layers.density_above) if two else (),
-        lid=tuple((length * piece.start, length * piece.end) for piece in lid),
+        lid=tuple((basin.origin + length * piece.start, basin.origin + length * piece.end) for piece in lid),
         goes_on=beyond,
         start=basin.origin,
         amplitude=field.amplitude,

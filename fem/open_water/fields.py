@@ -118,7 +118,7 @@ def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> 
             yield OpenField(
                 name=f"radiation_{number}_{dof.replace(' ', '_')}"
                 + (f"_{number_of_field:03d}" if len(omegas) > 1 else ""),
-                title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s{why}",
+                title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s, T = {2.0 * np.pi / omega:.4g} s{why}",
                 amplitude=_unit_motion(model, own),
                 model=model,
                 squared=squared,
@@ -151,7 +151,7 @@ def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int,
     why = "" if table.fields_at else _why("motion is largest", table)
     return OpenField(
         name=name,
-        title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s{why}",
+        title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s, T = {2.0 * np.pi / omega:.4g} s{why}",
         amplitude="incident wave of 1 m" + (f", damped as in one of {table.wave_amplitude:g} m" if len(drags) else ""),
         model=model,
         squared=found.squared,
@@ -195,7 +195,8 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
         unit = 1.0 / (model.scale.turn @ pair.bodies)[own]
         yield OpenField(
             name=f"resonance_{number}_{place + 1:03d}",
-            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {label.words}",
+            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, "
+            f"T = {2.0 * np.pi / omega.real:.4g} s, {label.words}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=pair.eigenvalue,

@@ -8,9 +8,16 @@ import numpy as np
 
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.mode_set import Mode
-from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
-from hydroelastic.fem.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
+from hydroelastic.fem.shape_curves import (
+    FloatSection,
+    SurfaceCurve,
+    body_shapes,
+    sample_level,
+    sign_of,
+    wave_curves,
+    wave_levels,
+)
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import StillLevel

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.level_tank.quantities import FREQUENCY, KIND, MODE_OMEGA, MODES, MULTIPLICITY, ORDER
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
-from hydroelastic.output.pictures.colours import INK, mode_colours
-from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
-from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.pictures.page import (
+from hydroelastic.output.plots import INK, mode_colours
+from hydroelastic.output.plots import FRAMES, SECONDS, write_gif
+from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import (
     POINT,
     WIDTH,
     FieldImage,
@@ -27,7 +27,7 @@ from hydroelastic.output.pictures.page import (
     write_caption,
     write_title,
 )
-from hydroelastic.output.pictures.rendering import require_renderer
+from hydroelastic.output.plots import require_renderer
 from hydroelastic.output.reading import Reading
 
 if TYPE_CHECKING:

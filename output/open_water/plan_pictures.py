@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.fem.open_water.plan_waves import PlanWaves
-from hydroelastic.output.pictures.colours import BODY, BODY_EDGE, SEQUENCE, diverging_colours
-from hydroelastic.output.pictures.curves import Sheets
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BODY, BODY_EDGE, SEQUENCE, part_of_colours
+from hydroelastic.output.plots import Sheets
+from hydroelastic.output.plots import PictureOptions
 
 # Points across a picture, and shades of its colours.
 _POINTS, _SHADES = 401, 20
@@ -29,7 +29,7 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
     with sheets.sheet(f"plan_{waves.name}", waves.title, width=13.0, height=6.4) as figure:
         size = np.nanmax(np.abs(elevation))
         panels = (
-            (elevation.real, "elevation at t = 0, m/m", diverging_colours(-1.0, 1.0), (-size, size)),
+            (elevation.real, "elevation at t = 0, m/m", part_of_colours("RdBu_r", 0.0, 1.0), (-size, size)),
             (np.abs(elevation), "amplitude of the elevation, m/m", SEQUENCE, (np.nanmin(np.abs(elevation)), size)),
         )
         for axes, (values, label, colours, (low, high)) in zip(figure.subplots(1, 2), panels, strict=True):

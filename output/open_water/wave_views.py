@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.open_water.plan_waves import MovingSolid, PlanWaves
-from hydroelastic.output.pictures.colours import BODY, INK, diverging_colours
-from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.pictures.page import WIDTH, FieldImage, new_page, pixels, save, write_caption, write_title
-from hydroelastic.output.pictures.rendering import require_renderer
+from hydroelastic.output.plots import BODY, INK, diverging_colours
+from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import WIDTH, FieldImage, new_page, pixels, save, write_caption, write_title
+from hydroelastic.output.plots import require_renderer
 
 if TYPE_CHECKING:
     import pyvista

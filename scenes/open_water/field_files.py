@@ -32,10 +32,9 @@ def _write_field(field: SampledField, folder: Path) -> None:
 
 
 def _write_bodies(field: SampledField, folder: Path) -> None:
-    real, imaginary = field.picture.real, field.picture.imaginary
-    moved = displacement_of(real.surfaces, real.floats) + 1j * displacement_of(imaginary.surfaces, imaginary.floats)
-    path = folder / f"{field.name}_bodies.vtu"
-    write_bodies(path, real.surfaces, real.floats, _parts("displacement", moved), start=real.start)
+    surfaces, floats = field.picture.surfaces, field.picture.floats
+    moved = displacement_of(surfaces, floats)
+    write_bodies(folder / f"{field.name}_bodies.vtu", surfaces, floats, _parts("displacement", moved))
 
 
 def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:

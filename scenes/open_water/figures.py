@@ -11,9 +11,9 @@ import numpy as np
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.output.open_water.quantities import directional_scattering, scattering_width
-from hydroelastic.output.pictures.colours import BLUE
-from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BLUE
+from hydroelastic.output.plots import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.time_figures import by_unit, draw_over_time

@@ -16,8 +16,9 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.files import write_open_csv
 from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.open_water.tables import open_cost, open_sections
+from hydroelastic.output.open_water.plan_pictures import draw_plan_waves, draw_wave_view
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
-from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.plots import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions, Sheets
 from hydroelastic.output.reading import Reading
 from hydroelastic.scenes.open_water.export import write_exports
 from hydroelastic.scenes.open_water.field_files import write_fields
@@ -77,20 +78,21 @@ def _write(water: SampledWater, folder: Path) -> None:
 
 
 def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
-    # Who only wants the numbers does without what draws.
-    from hydroelastic.scenes.open_water.field_pictures import draw_fields
+    from hydroelastic.output.fields import animate_motion, draw_motion
 
     report("pictures of curves")
     draw_open(water.solution, folder, options)
+    sheets = Sheets(folder=folder, title=water.solution.scene.title, options=options)
+    for waves in water.plans:
+        draw_plan_waves(waves, sheets)
     report("pictures of fields")
-    draw_fields(water.fields, folder, options)
-    if water.plans:
-        from hydroelastic.output.open_water.plan_pictures import draw_plan_waves
-        from hydroelastic.output.open_water.wave_views import draw_wave_view
-
-        for waves in water.plans:
-            draw_plan_waves(waves, water.solution.scene.title, folder, options)
-            draw_wave_view(waves, water.solution.scene.title, folder, options)
+    for field in water.fields:
+        draw_motion(field.picture, f"waves_{field.name}", sheets)
+        if options.animate:
+            # A motion that dies out is animated as if it did not: it goes on without a jump.
+            animate_motion(field.picture, f"waves_{field.name}", sheets)
+    for waves in water.plans:
+        draw_wave_view(waves, sheets)
 
 
 run_open = StagedRun(

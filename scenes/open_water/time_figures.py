@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
-from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes, plot_curve
+from hydroelastic.output.plots import GREY, Sheets, label_axes, plot_curve
 from hydroelastic.physics.dofs import Dof
 
 _MOST_CURVES = 6

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
+from hydroelastic.output.plots import GREY, Sheets, label_axes
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.scenes.roll.results import RollResult
 
 _WAVES = "#999999"

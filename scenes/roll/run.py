@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hydroelastic.output.csv_files import write_csv
-from hydroelastic.output.pictures.options import OF_CURVES
+from hydroelastic.output.plots import OF_CURVES
 from hydroelastic.output.roll.quantities import ROLL
 from hydroelastic.output.roll.tables import roll_cost, roll_sections
 from hydroelastic.output.variables import array_variables

@@ -9,9 +9,9 @@ import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.output.line_sequence import frame_numbers
-from hydroelastic.output.pictures.colours import diverging_colours
-from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import part_of_colours
+from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
 from hydroelastic.scenes.string.results import StringResult
@@ -66,7 +66,7 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
         picture = NonUniformImage(
             axes,
             interpolation="bilinear",
-            cmap=diverging_colours(low / limit, high / limit),
+            cmap=part_of_colours("RdBu_r", 0.5 + 0.5 * low / limit, 0.5 + 0.5 * high / limit),
             norm=Normalize(low, high),
             extent=(solution.times[0], solution.times[-1], solution.positions[0], solution.positions[-1]),
         )

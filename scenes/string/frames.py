@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.modal.string.solution import StringSolution
-from hydroelastic.output.pictures.colours import BLUE
-from hydroelastic.output.pictures.curves import curve_style, label_axes
-from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BLUE
+from hydroelastic.output.plots import curve_style, label_axes
+from hydroelastic.output.plots import FRAMES, SECONDS, write_gif
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.scenes.string.drawn import columns_of
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydroelastic.output.pictures.options import OF_CURVES, OF_MOTIONS
+from hydroelastic.output.plots import OF_CURVES, OF_MOTIONS
 from hydroelastic.output.string.quantities import HANGING_STRING
 from hydroelastic.output.string.tables import string_cost, string_sections
 from hydroelastic.scenes.staged_run import StagedRun

@@ -12,7 +12,7 @@ from typing import Any
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.progress import progress

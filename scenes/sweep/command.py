@@ -9,7 +9,7 @@ import click
 
 from hydroelastic.meshes.interrupts import interrupted_with
 from hydroelastic.output.manifest import read_manifest
-from hydroelastic.output.pictures.options import CurveFormat
+from hydroelastic.output.plots import CurveFormat
 from hydroelastic.scenes.command_options import (
     dpi_option,
     format_option,

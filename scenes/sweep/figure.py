@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
-from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
+from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns

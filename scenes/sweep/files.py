@@ -12,7 +12,7 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.dataset import DATASET, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.markdown import markdown_table, markdown_text
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.output.provenance import versions
 from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import folder_errors

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from mpi4py import MPI
 
 from hydroelastic.fem.sweep.mode_vectors import ModeVectors, array_of_text, array_text
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES
+from hydroelastic.output.plots import DEFAULT_PICTURES
 from hydroelastic.output.provenance import Summary, versions
 from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import SceneError

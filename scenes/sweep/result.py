@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from mpi4py import MPI
 
-from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.axes import Vary, grid_from_values

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
+from hydroelastic.fem.shape_curves import FloatSection, SurfaceCurve
 from hydroelastic.output.vtu import write_vtu
 
 # Numbers of the array `part`.
@@ -31,8 +31,6 @@ def write_bodies(
     surfaces: Iterable[SurfaceCurve],
     floats: Iterable[FloatSection],
     arrays: Mapping[str, Array],
-    *,
-    start: float = 0.0,
 ) -> None:
     """Write a VTU file of surfaces of liquids and beams, as lines, and of floats, as polygons, at rest; in m.
 
@@ -53,6 +51,5 @@ def write_bodies(
         cells.append(("polygon", count + np.arange(len(section.contour))[None]))
         parts.append(np.array([_FLOAT]))
         count += len(section.contour)
-    shifted = np.concatenate(points) + np.array([start, 0.0, 0.0])
     # Small files, of which there are many: compressing them takes longer than writing them.
-    write_vtu(path, shifted, cells, arrays, {"part": np.concatenate(parts)}, compressed=False)
+    write_vtu(path, np.concatenate(points), cells, arrays, {"part": np.concatenate(parts)}, compressed=False)

@@ -17,7 +17,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.plots import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.tank.quantities import MODE_OMEGA, MODES, TANK
 from hydroelastic.output.tank.tables import compared_sections, mode_columns, tank_cost, tank_sections

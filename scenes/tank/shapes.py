@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.fem.pictures.mode import ModePicture
+from hydroelastic.fem.shape_curves import SectionField
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import PictureOptions, Sheets
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.tank import quantities as tank
 from hydroelastic.output.vtu import write_collection, write_vtu
@@ -21,28 +21,28 @@ _LOWEST = 2
 _BENDS = 0.005
 
 
-def mode_title(number: int, mode: Reading) -> str:
-    """Title of a mode's picture."""
+def _mode_title(number: int, mode: Reading) -> str:
     omega, frequency, bending = mode[tank.MODE_OMEGA], mode[tank.FREQUENCY], mode[tank.BENDING]
     share = f" ({100 * bending:.0f} % bending)" if bending >= _BENDS else ""
-    return f"Mode {number}: ω = {omega:.6g} rad/s, {frequency:.4g} Hz, {mode[tank.KIND]}{share}"
+    period = f"T = {2.0 * np.pi / omega:.4g} s"
+    return f"Mode {number}: ω = {omega:.6g} rad/s, {frequency:.4g} Hz, {period}, {mode[tank.KIND]}{share}"
 
 
-def growing_title(number: int, mode: Reading) -> str:
-    """Title of a growing mode's picture."""
+def _growing_title(number: int, mode: Reading) -> str:
     rate = mode[tank.GROWTH_RATE]
     return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s, {mode[tank.KIND]}"
 
 
-def pictures(shapes: ModeShapes, summary: Reading) -> list[ModePicture]:
-    """One picture for each mode, the growing ones last."""
-    titles = [mode_title(number, mode) for number, mode in enumerate(summary[tank.MODES], 1)]
-    titles += [growing_title(number, mode) for number, mode in enumerate(summary[tank.GROWING], 1)]
+def pictures(shapes: ModeShapes, summary: Reading) -> list[SectionField]:
+    """What is drawn of each mode, the growing ones last."""
+    titles = [_mode_title(number, mode) for number, mode in enumerate(summary[tank.MODES], 1)]
+    titles += [_growing_title(number, mode) for number, mode in enumerate(summary[tank.GROWING], 1)]
     two = len(shapes.depths) > 1
     return [
-        ModePicture(
+        SectionField(
             points=shapes.liquid.points,
             triangles=shapes.liquid.triangles,
+            liquid=shapes.liquid.liquid,
             potential=shapes.liquid.potential[number],
             displacement=shapes.liquid.displacement[number],
             surfaces=shapes.curves[number],
@@ -78,23 +78,15 @@ def animated_modes(summary: Reading) -> list[int]:
 
 
 def draw_all(shapes: ModeShapes, summary: Reading, folder: Path, options: PictureOptions, report: Report) -> None:
-    """Draw every mode, and all of them on one sheet, into a folder, animate some if requested, and report the progress.
+    """Draw every mode, and all of them on one sheet, into a folder, animate some if requested, and report the progress."""
+    from hydroelastic.output.fields import animate_motion, draw_sections
 
-    Animations are half as wide as pictures, which keeps them small.
-    """
-    # Who only wants the fields does without what draws.
-    from hydroelastic.output.pictures.modes import animate_mode, draw_mode, draw_overview
-
-    drawn = pictures(shapes, summary)
-    # The sheet takes the longest to save.
-    draw_overview(drawn, folder / "overview.png", width=options.width)
-    for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
-        report(f"picture {number} of {len(drawn)}")
-        file = name if name.startswith("growing") else f"mode_{name}"
-        draw_mode(picture, folder / f"{file}.png", width=options.width)
-    for place in animated_modes(summary) if options.animate else ():
-        report(f"animation of mode {place + 1}")
-        animate_mode(drawn[place], folder / f"mode_{place + 1:03d}.gif", width=options.animation_width)
+    drawn, sheets = pictures(shapes, summary), Sheets(folder=folder, title="", options=options)
+    names = [name if name.startswith("growing") else f"mode_{name}" for name in mode_names(shapes)]
+    draw_sections(drawn, names, sheets, report)
+    for number in animated_modes(summary) if options.animate else ():
+        report(f"animation of mode {number + 1}")
+        animate_motion(drawn[number], names[number], sheets)
 
 
 def write_fields(shapes: ModeShapes, omegas: list[float], folder: Path) -> None:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
-from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
+from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.output.variables import numbered
 from hydroelastic.scenes.thread.line_pictures import (
     animate_modes,

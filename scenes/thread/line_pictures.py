@@ -11,7 +11,7 @@ from scipy.interpolate import Akima1DInterpolator
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.output.line_sequence import frame_numbers
-from hydroelastic.output.pictures.gif import FRAMES, SECONDS
+from hydroelastic.output.plots import FRAMES, SECONDS
 from hydroelastic.output.pictures.line import animate_line, draw_lines
 from hydroelastic.output.pictures.line_view import DrawnLine, LineView, line_view
 from hydroelastic.scenes.models.thread_tables import FixedEnd

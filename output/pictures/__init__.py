@@ -1,1 +1,0 @@
-"""Pictures: fields on triangles as pixels; curves, lines in space, frames by matplotlib; surfaces in space by VTK."""

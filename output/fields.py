@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,12 +19,15 @@ from hydroelastic.output.plots import (
     INK,
     PAGE,
     Sheets,
-    field_page,
     mode_colours,
+    new_page,
+    page_style,
     pixels,
     place,
     plotter,
+    write_caption,
     write_gif,
+    write_title,
 )
 
 if TYPE_CHECKING:
@@ -149,7 +152,7 @@ def _is_at_top(field: SectionField, curve: SurfaceCurve) -> bool:
 def _rounded(value: float, *, up: bool) -> float:
     power = 10.0 ** np.floor(np.log10(value))
     part = value / power
-    return float(power * (_ROUND[_ROUND >= part * (1 - 1e-9)][0] if up else _ROUND[_ROUND <= part * (1 + 1e-9)][-1]))
+    return float(power * (_ROUND[part * (1 - 1e-9) <= _ROUND][0] if up else _ROUND[part * (1 + 1e-9) >= _ROUND][-1]))
 
 
 def _power_of_ten(value: float) -> str:
@@ -159,36 +162,30 @@ def _power_of_ten(value: float) -> str:
 
 def draw_sections(fields: Sequence[SectionField], names: Sequence[str], sheets: Sheets, report: Report) -> None:
     """Draw modes of one tank with axes, colour bar and keys, and all of them as panels of an overview."""
-    views, scenes = [View(field) for field in fields], _Scenes(sheets.options.width)
-    for number, (field, view, name) in enumerate(zip(fields, views, names, strict=True), 1):
-        report(f"picture {number} of {len(fields)}")
-        _draw_page(sheets, name, field, view, scenes)
-    _draw_overview(sheets, views, scenes)
+    views, pages = [View(field) for field in fields], _Pages(sheets.options.width)
+    with page_style():
+        _draw_overview(sheets, views, pages)
+        for number, (field, view, name) in enumerate(zip(fields, views, names, strict=True), 1):
+            report(f"picture {number} of {len(fields)}")
+            sheets.save(pages.of(view).drawn(field, field.title), name)
 
 
 def draw_motion(field: SectionField, name: str, sheets: Sheets) -> None:
     """Draw a motion e^{−iωt} at t = 0, in the scales of its largest values."""
-    _draw_page(sheets, name, field.at(0.0), View(field.mapped(np.abs)), _Scenes(sheets.options.width))
+    with page_style():
+        page = _Page(View(field.mapped(np.abs)), sheets.options.width)
+        sheets.save(page.drawn(field.at(0.0), field.title), name)
 
 
 def animate_motion(field: SectionField, name: str, sheets: Sheets) -> None:
     """Draw a period of a motion e^{−iωt} as a GIF, in the scales of its largest values."""
-    view, width, pages = View(field.mapped(np.abs)), sheets.options.animation_width, []
-    scenes = _Scenes(width)
-    for part in np.arange(FRAMES) / FRAMES:
-        title = f"{field.title}, t = {part:.2f} T"
-        with field_page(title, "; ".join(view.notes()), width, _page_height(view)) as figure:
-            _fill_page(figure, field.at(part), view, scenes)
-            pages.append(pixels(figure))
-    write_gif(pages, sheets.folder / f"{name}.gif")
+    with page_style():
+        page = _Page(View(field.mapped(np.abs)), sheets.options.animation_width)
+        instants = ((field.at(part), f"{field.title}, t = {part:.2f} T") for part in np.arange(FRAMES) / FRAMES)
+        write_gif([pixels(page.drawn(*instant)) for instant in instants], sheets.folder / f"{name}.gif")
 
 
-def _draw_page(sheets: Sheets, name: str, field: SectionField, view: View, scenes: _Scenes) -> None:
-    with sheets.page(name, field.title, "; ".join(view.notes()), height=_page_height(view)) as figure:
-        _fill_page(figure, field, view, scenes)
-
-
-def _draw_overview(sheets: Sheets, views: Sequence[View], scenes: _Scenes) -> None:
+def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None:
     fields = [view.field for view in views]
     aspect = max((view.top - view.bottom) / view.field.length for view in views)
     most = 2 if aspect < 0.35 else 3 if aspect < 0.9 else 5
@@ -201,100 +198,114 @@ def _draw_overview(sheets: Sheets, views: Sequence[View], scenes: _Scenes) -> No
     if any(view.cut for view in views):
         notes.append(f"only the {'part around the interface' if two else 'upper part of the liquid'} shown")
     height = 1.2 + rows * row
-    letters = max(len(part) for field in fields for part in field.title.split(": ", 1))
-    size = min(13.7, 72.0 * panel / (0.56 * letters))
+    titles = [fill(field.title, 42) for field in fields]
+    size = min(13.7, 72.0 * panel / (0.58 * max(len(line) for title in titles for line in title.split("\n"))))
     # What reads pictures may refuse large ones.
     width = max(min(sheets.options.width, int(10_000 * PAGE / height)), 400)
-    smaller = replace(sheets, options=replace(sheets.options, width=width))
-    with smaller.page("overview", "", "; ".join(notes), height=height) as figure:
-        for number, (field, view) in enumerate(zip(fields, views, strict=True)):
-            left, top = 0.4 + number % columns * (panel + 0.4), height - 0.15 - number // columns * row
-            drawn = (view.top - view.bottom) / field.length * panel
-            axes = figure.add_axes(place(figure, left, top - 0.72 - drawn, panel, drawn))
-            _draw(axes, field, view, scenes.of(view), vectors=False, thin=0.62)
-            axes.set_axis_off()
-            figure.text((left + 0.5 * panel) / PAGE, (top - 0.36) / height, field.title.replace(": ", "\n", 1), size=size,
-                        ha="center", va="center")  # fmt: skip
-        _write_keys(figure, fields, 0.66)
+    figure = new_page(width, height)
+    write_caption(figure, "; ".join(notes))
+    for number, (field, view) in enumerate(zip(fields, views, strict=True)):
+        left, top = 0.4 + number % columns * (panel + 0.4), height - 0.15 - number // columns * row
+        drawn = (view.top - view.bottom) / field.length * panel
+        axes = figure.add_axes(place(figure, left, top - 0.72 - drawn, panel, drawn))
+        _draw(axes, field, view, pages.of(view).scene, vectors=False, thin=0.62)
+        axes.set_axis_off()
+        figure.text((left + 0.5 * panel) / PAGE, (top - 0.36) / height, titles[number], size=size,
+                    ha="center", va="center")  # fmt: skip
+    _write_keys(figure, fields, 0.66)
+    sheets.save(figure, "overview")
 
 
-class _Scenes:
-    """The last scene, for pages of a width in pixels: modes of a tank share it."""
+class _Pages:
+    """The last page: modes of a tank whose views do not differ share it."""
 
     def __init__(self, width: int) -> None:
-        self._width = width
-        self._key: Any = None
+        self._width, self._pages = width, dict[Any, _Page]()
 
-    def of(self, view: View) -> Scene:
+    def of(self, view: View) -> _Page:
         field = view.field
-        key = (id(field.points), id(field.triangles), view.bottom, view.ceiling)
-        if key != self._key:
-            self._key, self._scene = key, Scene(view, max(round(_drawn_width(view) * self._width / PAGE), 2))
-        return self._scene
+        key = (id(field.points), view.bottom, view.ceiling, view.top, tuple(_key_names([field])))
+        if key not in self._pages:
+            self._pages = {key: _Page(view, self._width)}
+        page = self._pages[key]
+        page.view = view
+        return page
 
 
-def _page_height(view: View) -> float:
-    width = _drawn_width(view)
-    return round(_FOOTER + width * (view.top - view.bottom) / view.field.length + _HEADING, 2)
+class _Page:
+    """What is the same on the pictures of several modes, drawn once: axes, keys, colours."""
+
+    def __init__(self, view: View, width: int) -> None:
+        from matplotlib.cm import ScalarMappable
+        from matplotlib.ticker import MaxNLocator
+
+        self.view, field, up = view, view.field, view.top - view.bottom
+        beside = _DENSITIES if field.densities else 0.0
+        wide = min(PAGE - _BESIDE - beside, 0.75 * PAGE * field.length / up)
+        high = wide * up / field.length
+        height = round(_FOOTER + high + _HEADING, 2)
+        self.figure = new_page(width, height)
+        self.axes = axes = self.figure.add_axes(
+            place(self.figure, 0.5 * (PAGE - wide - beside) + 0.45, _FOOTER, wide, high)
+        )
+        self.scene = Scene(view, max(round(wide * width / PAGE), 2))
+        axes.spines[:].set_visible(False)
+        axes.xaxis.set_major_locator(MaxNLocator(8, steps=(1, 2, 5, 10)))
+        ticks: list[float] = []
+        ends = [(-view.depth, 0.0, view.stretch), (0.0, view.upper, view.upper_stretch)]
+        for low, top, stretch in (
+            ends if view.stretch != view.upper_stretch else [(-view.depth, view.upper, view.stretch)]
+        ):
+            count = max(2, min(6, round(stretch * wide / field.length * (top - low) / 0.75)))
+            found = MaxNLocator(count, steps=(1, 2, 5, 10)).tick_values(low, top)
+            ticks += [tick for tick in found if low - 1e-9 <= tick <= top + 1e-9]
+        axes.set_yticks(view.drawn(ticks), [f"{tick + 0.0:.6g}".replace("-", "−") for tick in ticks])
+        axes.tick_params(length=9.0)
+        axes.set_xlabel("x, m")
+        axes.set_ylabel("y, m")
+        axes.yaxis.set_label_coords(-0.75 / wide, 0.5 * (view.ceiling - view.bottom) / up)
+        for name, density, depth, colour in zip(
+            "₂₁", field.densities, (-view.depth, view.upper), (_LOWER, _UPPER), strict=False
+        ):
+            axes.annotate(f"ρ{name} = {density:.5g}\nkg/m³", (1.0, (view.drawn(0.5 * depth) - view.bottom) / up), (22.0, 0.0),
+                          xycoords="axes fraction", textcoords="offset points", va="center",
+                          bbox={"facecolor": colour, "linewidth": 0.0, "pad": 6.0})  # fmt: skip
+        _write_keys(self.figure, [field], 1.72, vectors=True)
+        cax = self.figure.add_axes(place(self.figure, 2.0, 1.02, 6.4, 0.2))
+        ticks_of_bar = MaxNLocator(8, steps=(1, 2, 5, 10))
+        colours = ScalarMappable(cmap=mode_colours())
+        self._bar = self.figure.colorbar(colours, cax=cax, orientation="horizontal", ticks=ticks_of_bar)
+        cax.tick_params(length=5.0)
+        self._texts = [self.figure.text(0.0, 0.0, "")]
+
+    def drawn(self, field: SectionField, title: str) -> Figure:
+        """The page of a mode, in place of the one before."""
+        axes, view, figure = self.axes, self.view, self.figure
+        for artist in (*axes.collections, *axes.lines, *axes.images, *axes.patches, *self._texts):
+            artist.remove()
+        _draw(axes, field, view, self.scene, vectors=True)
+        exponent = int(np.floor(np.log10(view.limit)))
+        exponent = 0 if -3 <= exponent <= 3 else exponent
+        self._bar.mappable.set_clim(*(side * view.limit / 10.0**exponent for side in (-1, 1)))
+        name, unit = ("ρψ ∝ dynamic pressure", "kg/m") if field.densities else ("ψ", "m²")
+        power = f"10{str(exponent).translate(_SUPERSCRIPT)} " if exponent else ""
+        words = f"{name}, {power}{unit}, {field.amplitude or 'unit generalized mass'}"
+        meaning = figure.text(
+            9.1 / PAGE, 1.12 / figure.get_figheight(), words, size=15.0, va="center", parse_math=False
+        )
+        self._texts = [write_title(figure, title), write_caption(figure, "; ".join(view.notes())), meaning]
+        return figure
 
 
-def _drawn_width(view: View) -> float:
-    beside = _BESIDE + (_DENSITIES if view.field.densities else 0.0)
-    return min(PAGE - beside, 0.75 * PAGE * view.field.length / (view.top - view.bottom))
-
-
-def _fill_page(figure: Figure, field: SectionField, view: View, scenes: _Scenes) -> None:
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-    from matplotlib.ticker import MaxNLocator
-
-    width = _drawn_width(view)
-    height, beside = width * (view.top - view.bottom) / field.length, _DENSITIES if field.densities else 0.0
-    axes = figure.add_axes(place(figure, 0.5 * (PAGE - width - beside) + 0.45, _FOOTER, width, height))
-    _draw(axes, field, view, scenes.of(view), vectors=True)
-    axes.spines[:].set_visible(False)
-    axes.xaxis.set_major_locator(MaxNLocator(8, steps=(1, 2, 5, 10)))
-    ticks: list[float] = []
-    ends = [(-view.depth, 0.0, view.stretch), (0.0, view.upper, view.upper_stretch)]
-    for low, high, stretch in ends if view.stretch != view.upper_stretch else [(-view.depth, view.upper, view.stretch)]:
-        count = max(2, min(6, round(stretch * width / field.length * (high - low) / 0.75)))
-        found = MaxNLocator(count, steps=(1, 2, 5, 10)).tick_values(low, high)
-        ticks += [tick for tick in found if low - 1e-9 <= tick <= high + 1e-9]
-    axes.set_yticks(view.drawn(ticks), [f"{tick + 0.0:.6g}".replace("-", "−") for tick in ticks])
-    axes.tick_params(length=9.0)
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("y, m")
-    axes.yaxis.set_label_coords(-0.75 / width, (0.5 * (view.bottom + view.ceiling) - view.bottom) / (view.top - view.bottom))
-    for name, density, depth, colour in zip("₂₁", field.densities, (-view.depth, view.upper), (_LOWER, _UPPER), strict=False):
-        axes.annotate(f"  ρ{name} = {density:.5g}\n  kg/m³", (1.0, (view.drawn(0.5 * depth) - view.bottom) / (view.top - view.bottom)),
-                      xycoords="axes fraction", xytext=(16.0, 0.0), textcoords="offset points", va="center", color=INK,
-                      bbox={"facecolor": colour, "linewidth": 0.0, "alpha": 0.6})  # fmt: skip
-    _write_keys(figure, [field], 1.72, vectors=True)
-    exponent = int(np.floor(np.log10(view.limit)))
-    exponent = 0 if -3 <= exponent <= 3 else exponent
-    bar = figure.colorbar(
-        ScalarMappable(Normalize(*(side * view.limit / 10.0**exponent for side in (-1, 1))), mode_colours()),
-        cax=figure.add_axes(place(figure, 2.0, 1.02, 6.4, 0.2)),
-        orientation="horizontal",
-        ticks=MaxNLocator(8, steps=(1, 2, 5, 10)),
-    )
-    name, unit = ("ρψ ∝ dynamic pressure", "kg/m") if field.densities else ("ψ", "m²")
-    power = f"10{str(exponent).translate(_SUPERSCRIPT)} " if exponent else ""
-    words = f"{name}, {power}{unit}, {field.amplitude or 'unit generalized mass'}"
-    figure.text(9.1 / PAGE, 1.12 / figure.get_figheight(), words, size=15.0, va="center", parse_math=False)
-    bar.ax.tick_params(length=5.0)
-
-
-def _draw(
-    axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors: bool, thin: float = 1.0
-) -> None:
+def _draw(axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors: bool, thin: float = 1.0) -> None:
     """A motion in axes of the scale of the abscissae; vectors as long as the largest of the view allow."""
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgba
 
     image = scene.image(field, view.limit)
     axes.autoscale(False)
-    axes.imshow(image, extent=scene.extent, aspect="auto", interpolation="nearest" if vectors else "antialiased")
+    axes.imshow(image[:: 1 if vectors else 2, :: 1 if vectors else 2], extent=scene.extent, aspect="auto",
+                interpolation="nearest" if vectors else "bilinear")  # fmt: skip
     axes.set_xlim(field.start, field.start + field.length)
     axes.set_ylim(view.bottom, view.top)
     _draw_lines(axes, scene.mesh, field, view, thin)
@@ -336,21 +347,29 @@ def _line(name: str, x: Any, y: Any, thin: float = 1.0, label: str = "") -> Any:
                   label=label, clip_on=False, zorder=3.0)  # fmt: skip
 
 
+def _key_names(fields: Sequence[SectionField]) -> list[str]:
+    kinds = {curve.kind for field in fields for curve in field.surfaces}
+    kinds |= {"body"} if any(field.floats for field in fields) else set()
+    return [name for kind, name in _KINDS.items() if kind in kinds]
+
+
 def _write_keys(figure: Figure, fields: Sequence[SectionField], y: float, *, vectors: bool = False) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.markers import MarkerStyle
     from matplotlib.path import Path as Outline
 
-    kinds = {_KINDS[curve.kind] for field in fields for curve in field.surfaces}
     floats = any(field.floats for field in fields)
-    kinds |= {"floating body"} if floats else set()
-    keys = [_line(name, [], [], label=name) for name in _KINDS.values() if name in kinds]
+    keys = [_line(name, [], [], label=name) for name in _key_names(fields)]
     keys.append(_line("still level", [], [], label="still level, float at rest" if floats else "still level"))
     symbol = "ρψ" if fields[0].densities else "ψ"
     keys.append(_line("lines of equal", [], [], label=f"lines of equal {symbol}"))
     if vectors:
-        arrow = Outline(((-1, 0.06), (0.4, 0.06), (0.4, 0.24), (1, 0), (0.4, -0.24), (0.4, -0.06), (-1, -0.06), (-1, 0.06)))
-        keys.append(Line2D([], [], color=INK, ls="", marker=MarkerStyle(arrow), ms=32.0, mew=0.0, label="displacement ∇ψ"))
+        arrow = Outline(
+            ((-1, 0.06), (0.4, 0.06), (0.4, 0.24), (1, 0), (0.4, -0.24), (0.4, -0.06), (-1, -0.06), (-1, 0.06))
+        )
+        keys.append(
+            Line2D([], [], color=INK, ls="", marker=MarkerStyle(arrow), ms=32.0, mew=0.0, label="displacement ∇ψ")
+        )
     figure.legend(handles=keys, loc="center", bbox_to_anchor=(0.5, y / figure.get_figheight()), ncols=len(keys),
                   handlelength=2.8, columnspacing=2.0)  # fmt: skip
 
@@ -454,4 +473,4 @@ class Scene:
         """ψ or ρψ from −limit to limit as pixels."""
         self.mesh["field"] = field.pressure / limit
         self._plotter.render()
-        return np.asarray(self._plotter.screenshot(return_img=True))
+        return np.asarray(self._plotter.screenshot(return_img=True, transparent_background=True))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, fields
 from math import log10
 from pathlib import Path
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
+    from matplotlib.text import Text
 
 CurveFormat: TypeAlias = Literal["png", "svg", "pdf"]
 PictureOption: TypeAlias = Literal["formats", "dpi", "scale", "width", "animate"]
@@ -196,44 +197,53 @@ class Sheets:
         elif len(title) > letters:
             title = f"{fill(self.title, letters)}\n{fill(heading, letters)}"
         with style():
-            figure = Figure(figsize=(width, height), layout="constrained")
+            figure = Figure(figsize=(width, height), dpi=self.options.dpi, layout="constrained")
             yield figure
             # A dollar sign would begin a formula.
             figure.suptitle(title, parse_math=False)
             for axes in figure.axes:
                 _label_decades(axes.xaxis)
                 _label_decades(axes.yaxis)
-            self._save(figure, name, self.options.dpi)
+            self.save(figure, name)
 
-    @contextmanager
-    def page(self, name: str, title: str, caption: str, *, height: float) -> Iterator[Figure]:
-        """Provide a page around a field, `PAGE` wide, which is written as a sheet is, as wide as the options say."""
-        with field_page(title, caption, self.options.width, height) as figure:
-            yield figure
-            self._save(figure, name, figure.dpi)
-
-    def _save(self, figure: Figure, name: str, dpi: float) -> None:
+    def save(self, figure: Figure, name: str) -> None:
+        """Write a figure as ``<name>.png`` and so on."""
         with catch_warnings():
             # Where long labels leave no room, matplotlib warns and draws them over each other.
             filterwarnings("ignore", message="constrained_layout not applied", category=UserWarning)
             for kind in self.options.formats:
-                figure.savefig(self.folder / f"{name}.{kind}", dpi=dpi, **_SAVED[kind])
+                figure.savefig(self.folder / f"{name}.{kind}", dpi=figure.dpi, **_SAVED[kind])
 
 
-@contextmanager
-def field_page(title: str, caption: str, width: int, height: float) -> Iterator[Figure]:
-    """Provide a page of a width in pixels and a height in inches of `PAGE`, with a title and what measures it."""
+def page_style() -> AbstractContextManager[None]:
+    """The style of pages around fields."""
+    return style(**_PAGE_STYLE)
+
+
+def new_page(width: int, height: float) -> Figure:
+    """An empty page of a width in pixels and a height in inches of `PAGE`."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with style(**_PAGE_STYLE):
-        figure = Figure(figsize=(PAGE, height), dpi=width / PAGE)
-        FigureCanvasAgg(figure)
-        # Letters are 0.6 of their size wide; what is longer than the page is written smaller.
-        for words, y, size, colour in ((title, height - 0.42, 21.6, INK), (caption, 0.3, 13.7, GREY)):
-            size = min(size, 72.0 * (PAGE - 0.4) / (0.58 * max(len(words), 1)))
-            figure.text(0.5, y / height, words, size=size, color=colour, ha="center", va="center", parse_math=False)
-        yield figure
+    figure = Figure(figsize=(PAGE, height), dpi=width / PAGE)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def write_title(figure: Figure, words: str) -> Text:
+    """Write a title at the top of a page, smaller if it would not fit."""
+    return _write(figure, words, figure.get_figheight() - 0.42, 21.6, INK)
+
+
+def write_caption(figure: Figure, words: str) -> Text:
+    """Write what the reader must know to measure at the bottom of a page."""
+    return _write(figure, words, 0.3, 13.7, GREY)
+
+
+def _write(figure: Figure, words: str, y: float, size: float, colour: str) -> Text:
+    # Letters are 0.58 of their size wide.
+    size, y = min(size, 72.0 * (PAGE - 0.4) / (0.58 * max(len(words), 1))), y / figure.get_figheight()
+    return figure.text(0.5, y, words, size=size, color=colour, ha="center", va="center", parse_math=False)
 
 
 def place(figure: Figure, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
@@ -342,6 +352,14 @@ def plotter(size: Sequence[int]) -> pyvista.Plotter:
     scene.set_background("white")
     scene.enable_parallel_projection()
     return scene
+
+
+def show_image(figure: Figure, scene: pyvista.Plotter, left: float, bottom: float, width: float, height: float) -> None:
+    """Render a scene into a rectangle of a page, in inches."""
+    axes = figure.add_axes(place(figure, left, bottom, width, height))
+    axes.set_axis_off()
+    axes.imshow(scene.screenshot(return_img=True), aspect="auto")
+    scene.close()
 
 
 def _has_mesa() -> bool:

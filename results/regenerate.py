@@ -23,8 +23,7 @@ from PIL import Image
 from hydroelastic.output.folder import SUMMARY
 from hydroelastic.output.manifest import MANIFEST
 from hydroelastic.output.markdown import markdown_table, markdown_text
-from hydroelastic.output.plots import PictureOptions
-from hydroelastic.output.plots import save
+from hydroelastic.output.plots import PictureOptions, save
 from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.tank import TankScene

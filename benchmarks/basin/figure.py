@@ -8,8 +8,7 @@ from hydroelastic.benchmarks.cases import Code, Variant
 from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
-from hydroelastic.output.plots import BLUE, SKY, VERMILLION
-from hydroelastic.output.plots import Sheets, label_axes
+from hydroelastic.output.plots import BLUE, SKY, VERMILLION, Sheets, label_axes
 
 _STYLES: dict[tuple[Code, Variant], CurveStyle] = {
     ("basin field", "certified"): CurveStyle(colour=VERMILLION, marker="o"),

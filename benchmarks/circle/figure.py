@@ -9,8 +9,7 @@ from hydroelastic.benchmarks.circle.cases import LENGTHS
 from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
-from hydroelastic.output.plots import BLUE, SKY, VERMILLION
-from hydroelastic.output.plots import Sheets, label_axes
+from hydroelastic.output.plots import BLUE, SKY, VERMILLION, Sheets, label_axes
 
 # The longer the cylinder, the darker.
 _COLOURS = dict(zip(LENGTHS, (SKY, BLUE, "#0b2f52"), strict=True))

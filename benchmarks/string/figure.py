@@ -8,8 +8,7 @@ from hydroelastic.benchmarks.cases import STRING_CODES, Code
 from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
-from hydroelastic.output.plots import BLUE, VERMILLION
-from hydroelastic.output.plots import GREY, Sheets, label_axes
+from hydroelastic.output.plots import BLUE, GREY, VERMILLION, Sheets, label_axes
 
 _STYLES: dict[Code, CurveStyle] = {
     "string field": CurveStyle(colour=VERMILLION, marker="o"),

@@ -10,8 +10,7 @@ from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.tank.cases import tank_named
-from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
-from hydroelastic.output.plots import GREY, Sheets, label_axes
+from hydroelastic.output.plots import BLUE, GREEN, GREY, VERMILLION, Sheets, label_axes
 
 _STYLES: dict[tuple[Code, Variant], tuple[CurveStyle, str]] = {
     ("hydroelastic", "certified"): (

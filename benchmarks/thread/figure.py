@@ -11,8 +11,7 @@ from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.thread.cases import TENSION_TIMES, Reference, jumper_tension
-from hydroelastic.output.plots import BLUE, GREEN, ORANGE, VERMILLION
-from hydroelastic.output.plots import GREY, Sheets, label_axes
+from hydroelastic.output.plots import BLUE, GREEN, GREY, ORANGE, VERMILLION, Sheets, label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

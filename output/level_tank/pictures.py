@@ -1,163 +1,127 @@
-"""Pictures of modes of a tank in three dimensions: the displaced surface, lit, and its contours from above."""
+"""Pictures of modes of a tank in three dimensions: the displaced surface in space by VTK, its contours from above."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.level_tank.quantities import FREQUENCY, KIND, MODE_OMEGA, MODES, MULTIPLICITY, ORDER
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
-from hydroelastic.output.plots import INK, mode_colours
-from hydroelastic.output.plots import FRAMES, SECONDS, write_gif
-from hydroelastic.output.plots import PictureOptions
 from hydroelastic.output.plots import (
-    POINT,
-    WIDTH,
-    FieldImage,
+    FRAMES,
+    INK,
+    Sheets,
+    mode_colours,
     new_page,
+    page_style,
     pixels,
     place,
-    save,
+    plotter,
+    show_image,
     write_caption,
+    write_gif,
     write_title,
 )
-from hydroelastic.output.plots import require_renderer
 from hydroelastic.output.reading import Reading
 
 if TYPE_CHECKING:
     import pyvista
+    from matplotlib.figure import Figure
 
-# Sizes in pixels of a page that is 1600 pixels wide.
-_VIEW, _HEIGHT, _ABOVE, _BELOW = 900, 620, 90, 80
-# The largest displacement, in extents of the plan.
-_RAISED = 0.12
-_CONTOURS = 21
-# From where the surface is seen, and the part of the view that it fills.
+# The largest displacement, in extents of the plan; number of lowest modes that are animated.
+_RAISED, _ANIMATED = 0.12, 2
+# Width and height of the view in space, and of the contours, inches of a page.
+_VIEW, _HEIGHT, _BELOW, _SIDE = 9.0, 6.2, 0.8, 5.0
 _FROM = np.array([-1.0, -1.6, 1.1])
-_FILLED = 0.95
-# Number of lowest modes that are animated.
-_ANIMATED = 2
 
 
-def draw_level_tank(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
-    """Draw every mode, the first one of a pair, into a folder, and animate the lowest if requested."""
-    drawn = [place for place, name in enumerate(tank.sample.names) if not name.endswith("_sin")]
-    for place_of, mode in zip(drawn, tank.summary[MODES], strict=True):
-        number = tank.sample.numbers[place_of] + 1
-        report(f"picture {number} of {len(drawn)}")
-        title = _title(number, mode)
-        page = mode_page(tank.sample, place_of, title, width=options.width)
-        save(page, folder / f"mode_{number:03d}.png")
-        if options.animate and number <= _ANIMATED:
-            report(f"animation of mode {number}")
-            phases = np.arange(FRAMES) / FRAMES
-            pages = [
-                mode_page(
-                    tank.sample,
-                    place_of,
-                    f"{title}, t = {part:.2f} T",
-                    width=options.animation_width,
-                    factor=float(np.cos(2.0 * np.pi * part)),
-                ).copy()
-                for part in phases
-            ]
-            write_gif(pages, folder / f"mode_{number:03d}.gif", seconds=SECONDS, kept=mode_colours())
+def draw_level_tank(tank: SampledTank, sheets: Sheets, report: Report) -> None:
+    """Draw every mode, the first one of a pair, and animate the lowest if requested."""
+    drawn = [shape for shape, name in enumerate(tank.sample.names) if not name.endswith("_sin")]
+    with page_style():
+        for shape, mode in zip(drawn, tank.summary[MODES], strict=True):
+            number = tank.sample.numbers[shape] + 1
+            report(f"picture {number} of {len(drawn)}")
+            title, name = _title(number, mode), f"mode_{number:03d}"
+            sheets.save(_page(tank.sample, shape, title, sheets.options.width), name)
+            if sheets.options.animate and number <= _ANIMATED:
+                report(f"animation of mode {number}")
+                width = sheets.options.animation_width
+                pages = (
+                    _page(tank.sample, shape, f"{title}, t = {part:.2f} T", width, float(np.cos(2.0 * np.pi * part)))
+                    for part in np.arange(FRAMES) / FRAMES
+                )
+                write_gif(map(pixels, pages), sheets.folder / f"{name}.gif")
 
 
 def _title(number: int, mode: Reading) -> str:
     order = "" if mode[ORDER] is None else f", n = {mode[ORDER]}"
     pair = ", one of a pair" if mode[MULTIPLICITY] == 2 else ""
-    return f"Mode {number}: ω = {mode[MODE_OMEGA]:.6g} rad/s, {mode[FREQUENCY]:.4g} Hz{order}, {mode[KIND]}{pair}"
+    numbers = f"ω = {mode[MODE_OMEGA]:.6g} rad/s, {mode[FREQUENCY]:.4g} Hz, T = {1.0 / mode[FREQUENCY]:.4g} s"
+    return f"Mode {number}: {numbers}{order}, {mode[KIND]}{pair}"
 
 
-def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, factor: float = 1.0) -> NDArray[np.uint8]:
-    """Return the picture of a mode as pixels, shape (height, width, 4)."""
+def _page(sample: SampledModes, shape: int, title: str, width: int, factor: float = 1.0) -> Figure:
     elevation = sample.elevations[shape]
-    limit = float(np.abs(elevation).max()) or 1.0
-    relative = factor * elevation / limit
-    scale = width / WIDTH
-    figure = new_page(_HEIGHT + _ABOVE + _BELOW, width)
-    size = round(_VIEW * scale), round(_HEIGHT * scale)
-    figure.add_artist(FieldImage(_view(sample, relative, size), 0, round(_BELOW * scale)))
+    relative = factor * elevation / (float(np.abs(elevation).max()) or 1.0)
+    figure = new_page(width, _HEIGHT + _BELOW + 0.9)
+    scene = _scene(sample, relative, (round(_VIEW * figure.dpi), round(_HEIGHT * figure.dpi)))
+    show_image(figure, scene, 0.0, _BELOW, _VIEW, _HEIGHT)
     _contours(figure, sample, relative)
     write_title(figure, title)
     outlined = "; plates are outlined" if sample.plate_of_triangles.any() else ""
     write_caption(figure, f"Displacement over the largest one{outlined}. Left: raised for visibility.")
-    return pixels(figure)
+    return figure
 
 
-def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.uint8]:
-    # Without a library that renders, VTK would end the process.
-    require_renderer()
+def _scene(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, int]) -> pyvista.Plotter:
+    scene = plotter(size)
     import pyvista
 
     extent = float(np.ptp(sample.points, axis=0).max())
     points = np.column_stack([sample.points, _RAISED * extent * relative])
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
-    plotter.set_background("white")
     for number in np.unique(sample.plate_of_triangles):
-        part = _surface(points, sample.triangles[sample.plate_of_triangles == number], relative)
-        plotter.add_mesh(
-            part,
-            scalars="displacement",
-            cmap=mode_colours(),
-            clim=(-1.0, 1.0),
-            smooth_shading=True,
-            specular=0.4 if number == 0 else 0.1,
-            show_scalar_bar=False,
-        )
+        part = pyvista.PolyData.from_regular_faces(points, sample.triangles[sample.plate_of_triangles == number])
+        part["displacement"] = relative
+        scene.add_mesh(
+            part, scalars="displacement", cmap=mode_colours(), clim=(-1.0, 1.0), smooth_shading=True,
+            specular=0.4 if number == 0 else 0.1, show_scalar_bar=False,
+        )  # fmt: skip
     edges = _edges(sample)
     if len(edges):
         lines = pyvista.PolyData(points, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
-        plotter.add_mesh(lines, color=INK, line_width=2.0)
-    _look_at(plotter.camera, sample, _RAISED * extent, size)
-    image = np.asarray(plotter.screenshot(return_img=True))
-    plotter.close()
-    return image
-
-
-def _look_at(camera: pyvista.Camera, sample: SampledModes, raised: float, size: tuple[int, int]) -> None:
-    """Turn a camera so that the surface fills the view, raised or lowered by any part of the largest displacement."""
+        scene.add_mesh(lines, color=INK, line_width=2.0)
+    # The same view of the surface raised or lowered by any part of the largest displacement.
+    box = pyvista.PolyData(
+        np.column_stack([np.tile(sample.points, (2, 1)), np.repeat([-1.0, 1.0], len(sample.points)) * _RAISED * extent])
+    )
     forwards = -_FROM / np.linalg.norm(_FROM)
     rightwards = np.cross(forwards, [0.0, 0.0, 1.0])
-    rightwards /= np.linalg.norm(rightwards)
-    upwards = np.cross(rightwards, forwards)
-    seen = np.array([sample.points @ axis[:2] for axis in (rightwards, upwards)])
-    low, high = seen.min(axis=1), seen.max(axis=1)
-    width, height = high - low + [0.0, 2.0 * raised * upwards[2]]
-    middle = rightwards * 0.5 * (low[0] + high[0]) + upwards * 0.5 * (low[1] + high[1])
-    camera.parallel_projection = True
-    camera.position, camera.focal_point = middle - 4.0 * np.hypot(width, height) * forwards, middle
-    camera.up = (0.0, 0.0, 1.0)
-    camera.parallel_scale = 0.5 * max(height, width * size[1] / size[0]) / _FILLED
-    camera.clipping_range = (1.0 * np.hypot(width, height), 7.0 * np.hypot(width, height))
-
-
-def _surface(
-    points: NDArray[np.float64], triangles: NDArray[np.int64], relative: NDArray[np.float64]
-) -> pyvista.PolyData:
-    import pyvista
-
-    mesh = pyvista.PolyData.from_regular_faces(points, triangles)
-    mesh["displacement"] = relative
-    return mesh
+    axes = np.array(
+        [rightwards / np.linalg.norm(rightwards), np.cross(rightwards / np.linalg.norm(rightwards), forwards)]
+    )
+    seen = box.points @ axes.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    wide, high_ = high - low
+    middle, away = 0.5 * (low + high) @ axes, 4.0 * np.hypot(wide, high_)
+    scene.camera.position, scene.camera.focal_point, scene.camera.up = middle - away * forwards, middle, (0.0, 0.0, 1.0)
+    scene.camera.parallel_scale = 0.5 * max(high_, wide * size[1] / size[0]) / 0.95
+    scene.camera.clipping_range = (0.25 * away, 1.75 * away)
+    return scene
 
 
 def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64]) -> None:
     """Contours from above with a colour bar, to the right of the view."""
-    side = WIDTH - _VIEW - 200.0
-    axes = figure.add_axes(place(figure, _VIEW + 60.0, _BELOW + 0.5 * (_HEIGHT - side), side, side))
-    levels = np.linspace(-1.0, 1.0, _CONTOURS)
+    from matplotlib.tri import Triangulation
+
+    bottom = _BELOW + 0.5 * (_HEIGHT - _SIDE)
+    axes = figure.add_axes(place(figure, _VIEW + 0.6, bottom, _SIDE, _SIDE))
+    levels = np.linspace(-1.0, 1.0, 21)
     for number in np.unique(sample.plate_of_triangles):
-        triangulation = Triangulation(
-            sample.points[:, 0], sample.points[:, 1], sample.triangles[sample.plate_of_triangles == number]
-        )
+        triangulation = Triangulation(*sample.points.T, sample.triangles[sample.plate_of_triangles == number])
         filled = axes.tricontourf(triangulation, relative, levels, cmap=mode_colours())
         axes.tricontour(triangulation, relative, levels[::2], colors=INK, linewidths=0.5)
     for edge in _edges(sample):
@@ -166,14 +130,13 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     # Points are a little inside the pieces of the plan.
     axes.use_sticky_edges = False
     axes.margins(1e-6)
-    axes.tick_params(labelsize=17.0 * POINT)
-    axes.set_xlabel("x, m", fontsize=18.0 * POINT)
-    axes.set_ylabel("y, m", fontsize=18.0 * POINT)
-    bar = figure.colorbar(
-        filled, cax=figure.add_axes(place(figure, WIDTH - 110.0, _BELOW + 0.5 * (_HEIGHT - side), 24.0, side))
-    )
+    axes.spines[:].set_visible(True)
+    axes.set_xlabel("x, m", size=13.0)
+    axes.set_ylabel("y, m", size=13.0)
+    bar = figure.colorbar(filled, cax=figure.add_axes(place(figure, 14.9, bottom, 0.24, _SIDE)))
     bar.set_ticks([-1.0, 0.0, 1.0])
-    bar.ax.tick_params(labelsize=17.0 * POINT)
+    for scales in (axes, bar.ax):
+        scales.tick_params(labelsize=12.0)
 
 
 def _edges(sample: SampledModes) -> NDArray[np.int64]:

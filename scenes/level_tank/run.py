@@ -13,7 +13,7 @@ from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes, sample_volume
 from hydroelastic.output.level_tank.tables import compared_level_tank, level_tank_cost, level_tank_sections
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.plots import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.plots import OF_FIELDS, OF_MOTIONS, PictureOptions, Sheets
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -46,7 +46,7 @@ def _write_parts(tank: SampledTank) -> Callable[[Path], None] | None:
 def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
     from hydroelastic.output.level_tank.pictures import draw_level_tank
 
-    draw_level_tank(tank, folder, options, report)
+    draw_level_tank(tank, Sheets(folder=folder, title="", options=options), report)
 
 
 run_level_tank = StagedRun(

@@ -11,9 +11,16 @@ import numpy as np
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.output.open_water.quantities import directional_scattering, scattering_width
-from hydroelastic.output.plots import BLUE
-from hydroelastic.output.plots import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import (
+    BLUE,
+    COLOURS,
+    GREY,
+    PictureOptions,
+    Sheets,
+    label_axes,
+    plot_curve,
+    sequence_colours,
+)
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.time_figures import by_unit, draw_over_time

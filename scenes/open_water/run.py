@@ -14,9 +14,9 @@ from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.files import write_open_csv
+from hydroelastic.output.open_water.plan_pictures import draw_plan_waves, draw_wave_view
 from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.open_water.tables import open_cost, open_sections
-from hydroelastic.output.open_water.plan_pictures import draw_plan_waves, draw_wave_view
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.output.plots import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions, Sheets
 from hydroelastic.output.reading import Reading

@@ -6,9 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
-from hydroelastic.output.plots import GREY, Sheets, label_axes
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import BLUE, GREEN, GREY, VERMILLION, PictureOptions, Sheets, label_axes
 from hydroelastic.scenes.roll.results import RollResult
 
 _WAVES = "#999999"

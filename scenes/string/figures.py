@@ -9,9 +9,16 @@ import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.output.line_sequence import frame_numbers
-from hydroelastic.output.plots import part_of_colours
-from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import (
+    COLOURS,
+    DASHES,
+    GREY,
+    PictureOptions,
+    Sheets,
+    label_axes,
+    part_of_colours,
+    sequence_colours,
+)
 from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
 from hydroelastic.scenes.string.results import StringResult

@@ -9,10 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.modal.string.solution import StringSolution
-from hydroelastic.output.plots import BLUE
-from hydroelastic.output.plots import curve_style, label_axes
-from hydroelastic.output.plots import FRAMES, SECONDS, write_gif
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import BLUE, FRAMES, SECONDS, PictureOptions, label_axes, style, write_gif
 from hydroelastic.scenes.string.drawn import columns_of
 
 if TYPE_CHECKING:
@@ -49,7 +46,7 @@ def _frames(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with curve_style():
+    with style():
         figure = Figure(figsize=(5.0 * scale, 6.0 * scale), dpi=dpi, layout="constrained")
         canvas = FigureCanvasAgg(figure)
         axes = figure.subplots()

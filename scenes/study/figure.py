@@ -9,8 +9,7 @@ import numpy as np
 
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.theory import expected_order, expected_remainders
-from hydroelastic.output.plots import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
-from hydroelastic.output.plots import GREY, Sheets
+from hydroelastic.output.plots import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILLION, Sheets
 from hydroelastic.scenes.study.run import Study
 
 if TYPE_CHECKING:

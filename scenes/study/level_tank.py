@@ -18,9 +18,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.study.level_tank import LevelReference, LevelRow, level_reference, level_rows
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.folder import SUMMARY, result_folder
-from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
-from hydroelastic.output.plots import Sheets
-from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import BLUE, DEFAULT_PICTURES, GREEN, VERMILLION, PictureOptions, Sheets
 from hydroelastic.output.sections import text_console, text_of
 from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed, folder_errors

@@ -19,8 +19,7 @@ from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.output.folder import SUMMARY, result_folder
-from hydroelastic.output.plots import Sheets
-from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions, Sheets
 from hydroelastic.output.sections import text_console, text_of
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank

@@ -8,9 +8,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.output.plots import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
-from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import (
+    BLUE,
+    COLOURS,
+    DASHES,
+    GREEN,
+    GREY,
+    SEQUENCE,
+    VERMILLION,
+    PictureOptions,
+    Sheets,
+    label_axes,
+    part_of_colours,
+    plot_curve,
+)
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns

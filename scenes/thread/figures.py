@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,18 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.output.plots import BLUE, GREEN, VERMILLION
-from hydroelastic.output.plots import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
-from hydroelastic.output.plots import PictureOptions
+from hydroelastic.output.plots import (
+    BLUE,
+    COLOURS,
+    DASHES,
+    GREEN,
+    GREY,
+    VERMILLION,
+    PictureOptions,
+    Sheets,
+    label_axes,
+    sequence_colours,
+)
 from hydroelastic.output.variables import numbered
 from hydroelastic.scenes.thread.line_pictures import (
     animate_modes,
@@ -44,7 +54,7 @@ def draw_thread(solution: ThreadSolutionOfScene, folder: Path, options: PictureO
     second analysis of a kind have a number.
     """
     sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
-    draw_equilibrium(solution, folder / "equilibrium.png", width=options.width)
+    draw_equilibrium(solution, sheets)
     _draw_tension(solution, sheets)
     for number, modes in enumerate(solution.modes):
         _draw_modes(solution, modes, sheets, numbered("modes", number))
@@ -56,18 +66,18 @@ def draw_thread(solution: ThreadSolutionOfScene, folder: Path, options: PictureO
         if solution.scene.output.frames:
             frames = folder / numbered("frames", number)
             frames.mkdir()
-            draw_frames(solution, motion, frames, width=options.width)
+            draw_frames(solution, motion, replace(sheets, folder=frames))
     if options.animate:
-        _animate(solution, folder, width=options.animation_width)
+        _animate(solution, sheets)
 
 
-def _animate(solution: ThreadSolutionOfScene, folder: Path, *, width: int) -> None:
+def _animate(solution: ThreadSolutionOfScene, sheets: Sheets) -> None:
     """Animate modes as ``oscillation_001.gif`` and so on, motions as ``motion.gif``; of a second analysis with _2."""
     for number, modes in enumerate(solution.modes):
-        paths = [folder / numbered(f"oscillation_{mode:03d}", number, ".gif") for mode in range(1, _ANIMATED_MODES + 1)]
-        animate_modes(solution, modes, paths, width=width)
+        names = [numbered(f"oscillation_{mode:03d}", number) for mode in range(1, _ANIMATED_MODES + 1)]
+        animate_modes(solution, modes, names, sheets)
     for number, motion in enumerate(solution.motions):
-        animate_motion(solution, motion, folder / numbered("motion", number, ".gif"), width=width)
+        animate_motion(solution, motion, numbered("motion", number), sheets)
 
 
 def _draw_tension(solution: ThreadSolutionOfScene, sheets: Sheets) -> None:

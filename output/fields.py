@@ -1,4 +1,4 @@
-"""Pictures of motions in a section: colours and lines of ψ by pyvista, surfaces, bodies, vectors, axes by matplotlib."""
+"""Pictures of motions in a section: colours and lines of ψ by pyvista, bodies, vectors and axes by matplotlib."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from hydroelastic.output.plots import (
     INK,
     PAGE,
     Sheets,
+    add_colour_bar,
+    arrow_key,
     mode_colours,
     new_page,
     page_style,
@@ -27,6 +29,8 @@ from hydroelastic.output.plots import (
     plotter,
     write_caption,
     write_gif,
+    write_keys,
+    write_meaning,
     write_title,
 )
 
@@ -34,6 +38,7 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
 Array = NDArray[np.float64]
 
@@ -212,7 +217,7 @@ def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None
         axes.set_axis_off()
         figure.text((left + 0.5 * panel) / PAGE, (top - 0.36) / height, titles[number], size=size,
                     ha="center", va="center")  # fmt: skip
-    _write_keys(figure, fields, 0.66)
+    write_keys(figure, _keys(fields), 0.66)
     sheets.save(figure, "overview")
 
 
@@ -267,15 +272,11 @@ class _Page:
         for name, density, depth, colour in zip(
             "₂₁", field.densities, (-view.depth, view.upper), (_LOWER, _UPPER), strict=False
         ):
-            axes.annotate(f"ρ{name} = {density:.5g}\nkg/m³", (1.0, (view.drawn(0.5 * depth) - view.bottom) / up), (22.0, 0.0),
-                          xycoords="axes fraction", textcoords="offset points", va="center",
-                          bbox={"facecolor": colour, "linewidth": 0.0, "pad": 6.0})  # fmt: skip
-        _write_keys(self.figure, [field], 1.72, vectors=True)
-        cax = self.figure.add_axes(place(self.figure, 2.0, 1.02, 6.4, 0.2))
-        ticks_of_bar = MaxNLocator(8, steps=(1, 2, 5, 10))
-        colours = ScalarMappable(cmap=mode_colours())
-        self._bar = self.figure.colorbar(colours, cax=cax, orientation="horizontal", ticks=ticks_of_bar)
-        cax.tick_params(length=5.0)
+            words, at = f"ρ{name} = {density:.5g}\nkg/m³", (float(view.drawn(0.5 * depth)) - view.bottom) / up
+            box = {"facecolor": colour, "linewidth": 0.0, "pad": 6.0}
+            axes.annotate(words, (1.0, at), (22.0, 0.0), "axes fraction", "offset points", va="center", bbox=box)
+        write_keys(self.figure, [*_keys([field]), arrow_key(INK, "displacement ∇ψ")])
+        self._bar = add_colour_bar(self.figure, ScalarMappable(cmap=mode_colours()))
         self._texts = [self.figure.text(0.0, 0.0, "")]
 
     def drawn(self, field: SectionField, title: str) -> Figure:
@@ -290,10 +291,11 @@ class _Page:
         name, unit = ("ρψ ∝ dynamic pressure", "kg/m") if field.densities else ("ψ", "m²")
         power = f"10{str(exponent).translate(_SUPERSCRIPT)} " if exponent else ""
         words = f"{name}, {power}{unit}, {field.amplitude or 'unit generalized mass'}"
-        meaning = figure.text(
-            9.1 / PAGE, 1.12 / figure.get_figheight(), words, size=15.0, va="center", parse_math=False
-        )
-        self._texts = [write_title(figure, title), write_caption(figure, "; ".join(view.notes())), meaning]
+        self._texts = [
+            write_title(figure, title),
+            write_caption(figure, "; ".join(view.notes())),
+            write_meaning(figure, words),
+        ]
         return figure
 
 
@@ -337,7 +339,7 @@ def _draw(axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors:
         axes.add_line(_line("still level", x, view.drawn(y), thin))
 
 
-def _line(name: str, x: Any, y: Any, thin: float = 1.0, label: str = "") -> Any:
+def _line(name: str, x: Any, y: Any, thin: float = 1.0, label: str = "") -> Line2D:
     from matplotlib.lines import Line2D
     from matplotlib.patheffects import withStroke
 
@@ -353,25 +355,11 @@ def _key_names(fields: Sequence[SectionField]) -> list[str]:
     return [name for kind, name in _KINDS.items() if kind in kinds]
 
 
-def _write_keys(figure: Figure, fields: Sequence[SectionField], y: float, *, vectors: bool = False) -> None:
-    from matplotlib.lines import Line2D
-    from matplotlib.markers import MarkerStyle
-    from matplotlib.path import Path as Outline
-
-    floats = any(field.floats for field in fields)
+def _keys(fields: Sequence[SectionField]) -> list[Line2D]:
+    still = "still level, float at rest" if any(field.floats for field in fields) else "still level"
     keys = [_line(name, [], [], label=name) for name in _key_names(fields)]
-    keys.append(_line("still level", [], [], label="still level, float at rest" if floats else "still level"))
-    symbol = "ρψ" if fields[0].densities else "ψ"
-    keys.append(_line("lines of equal", [], [], label=f"lines of equal {symbol}"))
-    if vectors:
-        arrow = Outline(
-            ((-1, 0.06), (0.4, 0.06), (0.4, 0.24), (1, 0), (0.4, -0.24), (0.4, -0.06), (-1, -0.06), (-1, 0.06))
-        )
-        keys.append(
-            Line2D([], [], color=INK, ls="", marker=MarkerStyle(arrow), ms=32.0, mew=0.0, label="displacement ∇ψ")
-        )
-    figure.legend(handles=keys, loc="center", bbox_to_anchor=(0.5, y / figure.get_figheight()), ncols=len(keys),
-                  handlelength=2.8, columnspacing=2.0)  # fmt: skip
+    lines = f"lines of equal {'ρψ' if fields[0].densities else 'ψ'}"
+    return [*keys, _line("still level", [], [], label=still), _line("lines of equal", [], [], label=lines)]
 
 
 def _draw_walls(axes: Axes, field: SectionField, view: View, thin: float) -> None:
@@ -409,18 +397,19 @@ def _draw_lines(axes: Axes, mesh: pyvista.PolyData, field: SectionField, view: V
     from matplotlib.ticker import MaxNLocator
 
     sizes = np.ptp(field.points[field.triangles], axis=1).max(axis=1)
-    steep = np.ptp(mesh["field"][field.triangles], axis=1) > 0.01 / field.length * sizes
+    steep = np.ptp(mesh["field"][field.triangles], axis=1) > 0.01 * sizes / field.length
     if not steep.any():
         return
     # The level 0 is a hair above it: on a mirror plane ψ is 0 at whole edges of triangles.
-    levels = MaxNLocator(24, steps=(1, 2, 5, 10)).tick_values(-view.limit, view.limit) / view.limit + 1e-6
+    values = np.asarray(MaxNLocator(24, steps=(1, 2, 5, 10)).tick_values(-view.limit, view.limit))
+    levels = values / view.limit + 1e-6
     part = pyvista.PolyData.from_regular_faces(mesh.points, field.triangles[steep])
     part["field"] = mesh["field"]
     lines = part.contour(levels, scalars="field")
     ends = lines.points[lines.lines.reshape(-1, 3)[:, 1:].ravel(), :2]
     segments = Outline(ends, np.tile([Outline.MOVETO, Outline.LINETO], len(ends) // 2))
     axes.add_collection(PathCollection([segments], edgecolors=_LINES["lines of equal"][0], facecolors="none",
-                                       linewidths=0.8 * thin, capstyle="round"), autolim=False)  # fmt: skip
+                                       linewidths=0.8 * thin, capstyle="round", snap=False), autolim=False)  # fmt: skip
 
 
 def _draw_vectors(axes: Axes, mesh: pyvista.PolyData, field: SectionField, view: View) -> None:

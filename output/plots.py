@@ -21,8 +21,11 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colorbar import Colorbar
     from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
     from matplotlib.text import Text
 
 CurveFormat: TypeAlias = Literal["png", "svg", "pdf"]
@@ -50,7 +53,7 @@ class PictureOptions:
     """How pictures are made.
 
     Attributes:
-        formats: files that are written of each picture: ``"png"``, ``"svg"``, ``"pdf"``; numbered frames are PNG always.
+        formats: files that are written of each picture: ``"png"``, ``"svg"``, ``"pdf"``; numbered frames are PNG.
         dpi: pixels per inch of curves in PNG, and of coloured maps inside SVG and PDF; 50 to 1200.
         scale: size of the page of curves over its usual one, 0.8 to 4; letters and strokes keep their size.
         width: of pictures of fields, pixels, 400 to 8000.
@@ -244,6 +247,36 @@ def _write(figure: Figure, words: str, y: float, size: float, colour: str) -> Te
     # Letters are 0.58 of their size wide.
     size, y = min(size, 72.0 * (PAGE - 0.4) / (0.58 * max(len(words), 1))), y / figure.get_figheight()
     return figure.text(0.5, y, words, size=size, color=colour, ha="center", va="center", parse_math=False)
+
+
+def write_keys(figure: Figure, keys: Sequence[Line2D], height: float = 1.72) -> None:
+    """Write keys with their names in one row at a height in inches."""
+    y = height / figure.get_figheight()
+    figure.legend(handles=keys, loc="center", bbox_to_anchor=(0.5, y), ncols=len(keys), handlelength=2.8)
+
+
+def arrow_key(colour: str, name: str) -> Line2D:
+    """The key of vectors."""
+    from matplotlib.lines import Line2D
+    from matplotlib.markers import MarkerStyle
+    from matplotlib.path import Path as Outline
+
+    corners = (-1, 0.06), (0.4, 0.06), (0.4, 0.24), (1, 0), (0.4, -0.24), (0.4, -0.06), (-1, -0.06), (-1, 0.06)
+    return Line2D([], [], color=colour, ls="", marker=MarkerStyle(Outline(corners)), ms=32.0, mew=0.0, label=name)
+
+
+def add_colour_bar(figure: Figure, colours: ScalarMappable) -> Colorbar:
+    """A horizontal scale of colours below the keys of a page."""
+    from matplotlib.ticker import MaxNLocator
+
+    axes = figure.add_axes(place(figure, 2.8, 1.02, 6.4, 0.2))
+    axes.tick_params(length=5.0)
+    return figure.colorbar(colours, cax=axes, orientation="horizontal", ticks=MaxNLocator(8, steps=(1, 2, 5, 10)))
+
+
+def write_meaning(figure: Figure, words: str) -> Text:
+    """Say what colours mean, beside their scale."""
+    return figure.text(9.7 / PAGE, 1.12 / figure.get_figheight(), words, size=15.0, va="center", parse_math=False)
 
 
 def place(figure: Figure, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:

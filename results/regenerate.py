@@ -14,16 +14,14 @@ import json
 import shutil
 import sys
 import tempfile
-from io import BytesIO
 from pathlib import Path
 
-import numpy as np
 from PIL import Image
 
 from hydroelastic.output.folder import SUMMARY
 from hydroelastic.output.manifest import MANIFEST
 from hydroelastic.output.markdown import markdown_table, markdown_text
-from hydroelastic.output.plots import PictureOptions, save
+from hydroelastic.output.plots import PictureOptions
 from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -102,13 +100,9 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def keep_picture(source: Path, target: Path) -> None:
-    """Store a picture with all its colours, its rows as they are or filtered, whichever takes fewer bytes."""
-    filtered = BytesIO()
+    """Store a picture with all its colours in few bytes."""
     with Image.open(source) as picture:
-        picture.convert("RGB").save(filtered, "PNG", optimize=True)
-        save(np.asarray(picture.convert("RGBA")), target, compression=9)
-    if len(filtered.getvalue()) < target.stat().st_size:
-        target.write_bytes(filtered.getvalue())
+        picture.convert("RGB").save(target, "PNG", optimize=True)
 
 
 def index() -> str:

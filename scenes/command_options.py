@@ -37,7 +37,7 @@ format_option = click.option(
     "formats",
     type=click.Choice(CURVE_FORMATS),
     multiple=True,
-    help="Of pictures of curves; default png. May be repeated. Rendered fields are png always.",
+    help="Of pictures; default png. May be repeated. Numbered frames are png always.",
 )
 dpi_option = click.option(
     "--dpi", type=click.IntRange(*DPI_LIMITS), help=f"Pixels per inch of curves; default {DEFAULT_PICTURES.dpi}."
@@ -54,7 +54,7 @@ width_option = click.option(
     "width",
     type=click.IntRange(*WIDTH_LIMITS),
     metavar="PIXELS",
-    help=f"Of rendered pictures of fields and threads; default {DEFAULT_PICTURES.width}.",
+    help=f"Of pictures of fields and threads; default {DEFAULT_PICTURES.width}.",
 )
 animate_option = click.option(
     "--animate", is_flag=True, default=None, help="Draw what moves as an animation too, a GIF."

@@ -9,6 +9,7 @@ from command import run_command
 from PIL import Image
 
 import hydroelastic as he
+from hydroelastic.output import plots
 
 FEW = {"accuracy.modes": 2, "accuracy.tolerance": 1e-3}
 CHAIN = [{"kind": "motion", "times": [0.0, 0.5, 1.0], "tolerance": 1e-2, "release": [{"end": "b", "time": 0.25}]}]
@@ -77,6 +78,43 @@ def test_the_command_draws_as_it_is_told(tmp_path: Path) -> None:
     assert (images / "roll.svg").read_text(encoding="utf-8").count("<path") > 10
     # 11 by 8 inches.
     assert pixels(images / "roll.png").shape[:2] == (round(8 * 0.8 * 60), round(11 * 0.8 * 60))
+
+
+def test_fields_are_drawn_in_each_format_and_at_their_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The axes of a mode hold the field's extent and the largest drawn displacement, 0.16 of the depth."""
+    figures: dict[str, Any] = {}
+    save = plots.Sheets.save
+
+    def saved(sheets: plots.Sheets, figure: Any, name: str) -> None:
+        axes = figure.axes[0]
+        figures[name] = axes.images[0].get_extent(), [line.get_ydata() for line in axes.lines], axes.get_xlim()
+        save(sheets, figure, name)
+
+    monkeypatch.setattr(plots.Sheets, "save", saved)
+    pictures = he.PictureOptions(width=500, formats=("png", "svg", "pdf"))
+    he.solve(he.read("sloshing", {"accuracy.modes": 1})).save(tmp_path / "out", images=pictures)
+    images = tmp_path / "out" / "images"
+    names = {f"{name}.{kind}" for name in ("mode_001", "overview") for kind in pictures.formats}
+    assert {file.name for file in images.iterdir()} == names
+    assert pixels(images / "mode_001.png").shape[1] == 500
+    assert "Mode 1: ω = " in (images / "mode_001.svg").read_text(encoding="utf-8")
+    extent, lines, limits = figures["mode_001"]
+    scene = he.read("sloshing").model_dump()["tank"]
+    depth = he.read("sloshing").model_dump()["liquid"][0]["depth"]
+    assert extent == pytest.approx((0.0, scene["length"], -depth, 0.0))
+    assert limits == pytest.approx((0.0, scene["length"]))
+    largest = max(np.abs(y).max() for y in lines if len(y) > 5)
+    assert largest == pytest.approx(min(0.1 * scene["length"], 0.16 * depth))
+
+
+def test_without_a_renderer_fields_are_left_out_with_a_warning(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
+    monkeypatch.setattr(plots, "_has_mesa", lambda: False)
+    result = run_command("run", "sloshing", "--set", "accuracy.modes=1", "--quiet", "--out", str(tmp_path / "out"))
+    assert result.exit_code == 0
+    assert result.stderr.startswith("Warning: no images of fields: pictures need a library that renders")
+    assert len(result.stderr.splitlines()) == 1
+    assert not (tmp_path / "out" / "images").exists()
 
 
 @pytest.mark.slow

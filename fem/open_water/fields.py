@@ -151,7 +151,8 @@ def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int,
     why = "" if table.fields_at else _why("motion is largest", table)
     return OpenField(
         name=name,
-        title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s, T = {2.0 * np.pi / omega:.4g} s{why}",
+        title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s, "
+        f"T = {2.0 * np.pi / omega:.4g} s{why}",
         amplitude="incident wave of 1 m" + (f", damped as in one of {table.wave_amplitude:g} m" if len(drags) else ""),
         model=model,
         squared=found.squared,

@@ -95,20 +95,16 @@ def _scene(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int,
         lines = pyvista.PolyData(points, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
         scene.add_mesh(lines, color=INK, line_width=2.0)
     # The same view of the surface raised or lowered by any part of the largest displacement.
-    box = pyvista.PolyData(
-        np.column_stack([np.tile(sample.points, (2, 1)), np.repeat([-1.0, 1.0], len(sample.points)) * _RAISED * extent])
-    )
     forwards = -_FROM / np.linalg.norm(_FROM)
     rightwards = np.cross(forwards, [0.0, 0.0, 1.0])
-    axes = np.array(
-        [rightwards / np.linalg.norm(rightwards), np.cross(rightwards / np.linalg.norm(rightwards), forwards)]
-    )
-    seen = box.points @ axes.T
+    rightwards /= np.linalg.norm(rightwards)
+    axes = np.array([rightwards, np.cross(rightwards, forwards)])
+    seen = sample.points @ axes[:, :2].T
     low, high = seen.min(axis=0), seen.max(axis=0)
-    wide, high_ = high - low
-    middle, away = 0.5 * (low + high) @ axes, 4.0 * np.hypot(wide, high_)
+    wide, tall = high - low + [0.0, 2.0 * _RAISED * extent * axes[1, 2]]
+    middle, away = 0.5 * (low + high) @ axes, 4.0 * np.hypot(wide, tall)
     scene.camera.position, scene.camera.focal_point, scene.camera.up = middle - away * forwards, middle, (0.0, 0.0, 1.0)
-    scene.camera.parallel_scale = 0.5 * max(high_, wide * size[1] / size[0]) / 0.95
+    scene.camera.parallel_scale = 0.5 * max(tall, wide * size[1] / size[0]) / 0.95
     scene.camera.clipping_range = (0.25 * away, 1.75 * away)
     return scene
 
@@ -121,7 +117,9 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     axes = figure.add_axes(place(figure, _VIEW + 0.6, bottom, _SIDE, _SIDE))
     levels = np.linspace(-1.0, 1.0, 21)
     for number in np.unique(sample.plate_of_triangles):
-        triangulation = Triangulation(*sample.points.T, sample.triangles[sample.plate_of_triangles == number])
+        triangulation = Triangulation(
+            sample.points[:, 0], sample.points[:, 1], sample.triangles[sample.plate_of_triangles == number]
+        )
         filled = axes.tricontourf(triangulation, relative, levels, cmap=mode_colours())
         axes.tricontour(triangulation, relative, levels[::2], colors=INK, linewidths=0.5)
     for edge in _edges(sample):

@@ -78,7 +78,7 @@ def animated_modes(summary: Reading) -> list[int]:
 
 
 def draw_all(shapes: ModeShapes, summary: Reading, folder: Path, options: PictureOptions, report: Report) -> None:
-    """Draw every mode, and all of them on one sheet, into a folder, animate some if requested, and report the progress."""
+    """Draw every mode, and all of them on one sheet, into a folder, animate some if requested; report the progress."""
     from hydroelastic.output.fields import animate_motion, draw_sections
 
     drawn, sheets = pictures(shapes, summary), Sheets(folder=folder, title="", options=options)

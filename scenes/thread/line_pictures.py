@@ -24,12 +24,16 @@ from hydroelastic.output.plots import (
     SEQUENCE,
     SKY,
     Sheets,
+    add_colour_bar,
+    arrow_key,
     new_page,
     page_style,
     pixels,
     place,
     write_caption,
     write_gif,
+    write_keys,
+    write_meaning,
     write_title,
 )
 from hydroelastic.scenes.models.thread_tables import FixedEnd
@@ -242,12 +246,10 @@ def _page(view: _View, line: _Line, width: int) -> Figure:
     keys += [] if view.flat else [Line2D([], [], color=_SHADOW, lw=2.9, label="shadow straight below")]
     if view.fastest > 0.0:
         words = f"stream, longest arrow {view.fastest:.3g} m/s"
-        keys.append(Line2D([], [], color=SKY, ls="", marker=r"$\rightarrow$", markersize=30.0, label=words))
-    height = figure.get_figheight()
-    figure.legend(handles=keys, loc="center", bbox_to_anchor=(0.5, 1.72 / height), ncols=len(keys), handlelength=2.8)
-    cax = figure.add_axes(place(figure, 3.2, 1.02, 6.4, 0.2))
-    figure.colorbar(coloured, cax=cax, orientation="horizontal")
-    figure.text(10.2 / PAGE, 1.12 / height, view.quantity, size=15.0, va="center")
+        keys.append(arrow_key(SKY, words))
+    write_keys(figure, keys)
+    add_colour_bar(figure, coloured)
+    write_meaning(figure, view.quantity)
     sight = "seen along y" if view.flat else "parallel projection, seen from −x, −y and above"
     write_title(figure, line.title)
     write_caption(figure, f"{sight}; drawn to scale{line.note}")
@@ -259,13 +261,14 @@ def _draw_plane(figure: Figure, box: Any, view: _View, line: _Line, coloured: An
 
     axes = figure.add_axes(box, xlim=(view.low[0], view.high[0]), ylim=(view.low[2], view.high[2]))
     axes.grid(color=_GRID)
-    axes.spines[:].set_color(_GRID)
+    axes.spines[:].set(color=_GRID, visible=True)
     axes.set_xlabel("x, m")
     axes.set_ylabel("z, m")
     axes.locator_params(nbins=8, steps=(1, 2, 5, 10))
-    axes.quiver(*view.starts[:, [0, 2]].T, *view.vectors[:, [0, 2]].T, color=SKY, angles="xy", scale_units="xy", scale=1.0,
-                units="inches", width=0.04, headwidth=3.8, headlength=4.5, headaxislength=4.5)  # fmt: skip
-    axes.add_collection(LineCollection(_pieces(line.points[:, [0, 2]]), **_stroke(line, coloured)), autolim=False)
+    starts, vectors = (of[:, [0, 2]].T for of in (view.starts, view.vectors))
+    axes.quiver(*starts, *vectors, color=SKY, angles="xy", scale_units="xy", scale=1.0, units="inches", width=0.04,
+                headwidth=3.8, headlength=4.5, headaxislength=4.5)  # fmt: skip
+    axes.add_collection(LineCollection(list(_pieces(line.points[:, [0, 2]])), **_stroke(line, coloured)), autolim=False)
     axes.plot(*line.held[:, [0, 2]].T, **_HELD)
     axes.plot(*line.bodies[:, [0, 2]].T, **_BODY)
 

@@ -17,6 +17,7 @@ from hydroelastic.output.plots import (
     GREY,
     PictureOptions,
     Sheets,
+    few,
     label_axes,
     plot_curve,
     sequence_colours,
@@ -206,7 +207,7 @@ def _draw_directions(table: ResponseTable, sheets: Sheets, name: str) -> None:
         axes = figure.subplots(subplot_kw={"projection": "polar"})
         scattering = np.flatnonzero(width[:, 0] > 0.0)
         shown = scattering[np.argsort(table.omega[scattering])]
-        shown = shown[np.unique(np.linspace(0, len(shown) - 1, min(len(shown), _MOST_DIRECTIONS)).round().astype(int))]
+        shown = shown[few(len(shown), _MOST_DIRECTIONS)]
         for row, colour in zip(shown, sequence_colours(len(shown)), strict=True):
             label = f"ω = {table.omega[row]:.4g} rad/s, σ = {width[row, 0]:.3g} m"
             axes.plot(angles, 2.0 * np.pi * found[row, 0] / width[row, 0], color=colour, label=label)
@@ -222,7 +223,7 @@ def _draw_deflection(table: ResponseTable, place: int, sheets: Sheets, name: str
     """|w| along a beam at a few frequencies, one panel for each wave that comes."""
     plate = table.plates[place]
     order = np.argsort(table.omega)
-    shown = order[np.unique(np.linspace(0, len(order) - 1, min(len(order), _MOST_DEFLECTIONS)).round().astype(int))]
+    shown = order[few(len(order), _MOST_DEFLECTIONS)]
     heading = f"deflection of body {plate.body + 1} per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=7.5 * len(table.waves)) as figure:
         panels = figure.subplots(1, len(table.waves), squeeze=False)[0]

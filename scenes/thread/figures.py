@@ -21,6 +21,7 @@ from hydroelastic.output.plots import (
     VERMILLION,
     PictureOptions,
     Sheets,
+    few,
     label_axes,
     sequence_colours,
 )
@@ -159,7 +160,7 @@ def _different(roots: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
 
 def _draw_motion(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
     """The thread at a few times, seen along y, or from three sides if it leaves the plane; how far it has moved."""
-    places = sorted({int(place) for place in np.linspace(0, len(motion.times) - 1, _SHOWN_SHAPES).round()})
+    places = few(len(motion.times), _SHOWN_SHAPES)
     spread = np.ptp(motion.positions.reshape(-1, 3), axis=0)
     sides = [(0, 2)] if spread[1] < 1e-6 * spread.max() else [(0, 2), (1, 2), (0, 1)]
     s = smooth_curve(motion.nodes, motion.nodes)

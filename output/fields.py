@@ -336,7 +336,7 @@ def _draw(axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors:
         axes.fill(*view.moved(section).T, facecolor=(BODY, opacity), edgecolor=BODY_EDGE, lw=2.5 * thin, zorder=3.5,
                   clip_on=False)  # fmt: skip
         x, y = np.vstack([section.contour, section.contour[:1]]).T
-        axes.add_line(_line("still level", x, view.drawn(y), thin))
+        axes.add_line(_line("still level", x, view.drawn(y), thin)).set_zorder(3.6)
 
 
 def _line(name: str, x: Any, y: Any, thin: float = 1.0, label: str = "") -> Line2D:

@@ -18,12 +18,12 @@ from hydroelastic.fem.mode_set import ModeSet
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
-from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.refined_modes import refined_modes
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.model import VolumeModel
 from hydroelastic.fem.volume.pencil import SolverOf
+from hydroelastic.modal.plate.rectangle import ClassParity
 
 # Residual of modes over the root of the tolerance: it enters frequencies squared, over the gap to the modes beyond, and
 # shapes are then more accurate than those of a mesh that keeps the tolerance.

@@ -42,7 +42,7 @@ _RELEASED_FINEST, _RELEASED_COARSEST = 1e-5, 1e-3
 # The three resolutions show the difference of the limits of the first two and of the last two, which are closer to each
 # other than to the truth where the series of powers of the thickness has not yet begun.
 _SAFETY = 2.0
-# Both limits may by chance be closer to each other than to the truth: their error is at least this part of their distance
+# Both limits may by chance be closer to each other than to the truth: the error is at least this part of the distance
 # from the last value; measured 0.07 of a soft rectangle.
 _OF_LIMIT = 0.1
 

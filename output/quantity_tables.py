@@ -52,7 +52,7 @@ def reference_table(kind: Group) -> str:
     rows: list[Row] = []
     for place, name, dimensions, part in kind.places():
         level = place.count(".")
-        key = "· " * level + f"`{part.key}`"
+        key = "· " * level + f"`{part.key}`" + ("" if part.contract else " †")
         if isinstance(part, Group):
             what = f"{part.meaning}; along `{part.dimension}`" if part.dimension else part.meaning
             rows.append((key, "", "", _noted(what, part.note), ""))

@@ -30,8 +30,8 @@ SCENES: dict[str, tuple[str, dict[str, Any], int]] = {
     "thread": ("catenary", {"analysis": [{"kind": "modes", "count": 2}]}, 2),
     "roll": ("swell", {}, 0),
 }
-# What a run measures of itself.
-MEASURED = ("timing", "stage", "memory_peak")
+# What a run measures of itself, and what is of its folder.
+MEASURED = ("seconds", "memory_peak", "scene_file", "files")
 BEAM = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 
 
@@ -69,7 +69,7 @@ def test_save_writes_the_folder_of_the_command(solved: tuple[str, he.Result, Pat
     assert ended.exit_code == 0
     files = {file.relative_to(saved) for file in saved.rglob("*") if file.is_file()}
     assert files == {file.relative_to(out) for file in out.rglob("*") if file.is_file()}
-    measuring = {Path(name) for name in ("summary.json", "summary.md", "dataset.nc", "manifest.json", "report.html")}
+    measuring = {Path(name) for name in ("summary.json", "summary.md", "dataset.nc", "report.html")}
     assert measuring < files
     assert [str(file) for file in files - measuring if (saved / file).read_bytes() != (out / file).read_bytes()] == []
     first, second = (json.loads((folder / "summary.json").read_text()) for folder in (saved, out))

@@ -19,7 +19,7 @@ from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, Rectan
 from hydroelastic.fem.plan.released import ReleasedProblem
 from hydroelastic.fem.plan.released_box import released_box
 from hydroelastic.fem.plan.truncation import finer_count, rectangle_energies
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.tank import ROUND_OFF
@@ -82,7 +82,6 @@ class BoxSolution:
         liquid_errors: relative error of each frequency by the space of ψ, shape (modes,).
         plate_errors: relative error by the polynomials of the plates, shape (modes,).
         counted: whether a coarser model confirms the number of modes.
-        attempts: number of resolutions that were solved.
     """
 
     tank: LevelTank
@@ -92,7 +91,6 @@ class BoxSolution:
     liquid_errors: np.ndarray
     plate_errors: np.ndarray
     counted: bool
-    attempts: int
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -128,8 +126,7 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
     attempts, model = numbered(1), BoxModel(tank=tank)
 
     def solve(resolution: BoxResolution) -> BoxSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers")
         problems = {parity: model.problem(resolution, parity) for parity in symmetries(tank)}
         pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
         modes = solve_classes(pencils, count + 1, tolerance)
@@ -145,7 +142,6 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
             liquid_errors=liquid,
             plate_errors=plates,
             counted=count_is_confirmed(modes, lambda parity: box_problem(tank, coarser, parity, dense=True)[0]),
-            attempts=attempt,
         )
 
     def refine(resolution: BoxResolution, solution: BoxSolution) -> BoxResolution | None:

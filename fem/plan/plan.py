@@ -32,7 +32,7 @@ from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
 from hydroelastic.fem.plan.released import ReleasedProblem
 from hydroelastic.fem.plan.released_plan import released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
@@ -180,7 +180,6 @@ class PlanSolution:
         modes: the lowest modes, one more than asked for.
         errors: relative errors of their frequencies by the liquid, the poles and the plates, shape (3, modes).
         counted: whether a coarser model confirms the number of modes.
-        attempts: number of resolutions that were solved.
     """
 
     tank: LevelTank
@@ -192,7 +191,6 @@ class PlanSolution:
     modes: ClassModes
     errors: np.ndarray
     counted: bool
-    attempts: int
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -223,8 +221,7 @@ def solve_plan(
     attempts, model = numbered(1), PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers")
         parts = model.parts(resolution)
         problems = {parity: model.problem(resolution, parity) for parity in parts.classes}
         pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
@@ -246,7 +243,6 @@ def solve_plan(
             modes=modes,
             errors=errors,
             counted=count_is_confirmed(modes, coarse),
-            attempts=attempt,
         )
 
     return adaptive_solve(

@@ -19,7 +19,7 @@ from hydroelastic.fem.plan.plate_tone import ClassModel, R, released_limits
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.plan.released import ReleasedModes, ReleasedProblem, released_modes
 from hydroelastic.fem.plan.truncation import finer_count
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.physics.arrays import FloatArray
 
 _MOST_ATTEMPTS, _MOST_LAYERS = 4, 6
@@ -39,7 +39,6 @@ class ReleasedSolution:
         plates: as bodies, in the shapes of each class.
         relative_errors: of each frequency, shape (modes,).
         counted: whether another start in a finer space finds the same number of modes.
-        attempts: number of resolutions that were solved.
         sizes: numbers of its resolution, by name.
     """
 
@@ -47,7 +46,6 @@ class ReleasedSolution:
     plates: dict[ClassParity, Any]
     relative_errors: FloatArray
     counted: bool
-    attempts: int
     sizes: dict[str, int]
     count_method: str = "a second start"
 
@@ -80,8 +78,7 @@ def solve_released(
     attempts = numbered(1)
 
     def solve(resolution: R) -> ReleasedSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers and more")
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers and more")
         found = list(filter(None, (_solved_class(model, resolution, parity, count) for parity in parities)))
         ordered = sorted(
             (float(value), number, place)
@@ -99,7 +96,6 @@ def solve_released(
             plates={one.one.parity: one.plates for one in found},
             relative_errors=np.array([found[number].errors[place] for _, number, place in ordered]),
             counted=all(len({int(np.sum(values < shift)) for values in one.values[1:]}) == 1 for one in found),
-            attempts=attempt,
             sizes={
                 "problems": len(found),
                 "degree": resolution.degree + 1,
@@ -181,8 +177,6 @@ def _mode_set(pencil: CoupledPencil, problem: ReleasedProblem, found: ReleasedMo
         completed=completed,
         zero_modes=int(np.sum(problem.stiffness == 0.0)),
         converged=len(limits),
-        iterations=1,
-        solves=0,
     )
 
 

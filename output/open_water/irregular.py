@@ -18,6 +18,7 @@ def _load_error(key: str, words: str, symbol: str) -> Quantity:
         printed=False,
         value=lambda it: it.relative_errors[key],
         note="relative to the largest along it",
+        contract=False,
     )
 
 
@@ -40,7 +41,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
         lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
     own_array("relative_error", "estimated error of the transfer functions, relative to the incident wave, or to the "
         "largest motion where that is larger", "spectrum_omega", lambda it: it.relative_error, unit="1",
-        variable="spectrum_relative_error", column="relative_error"),
+        variable="spectrum_relative_error", column="relative_error", contract=False),
     RESPONSES := Group("responses", "statistics of each response, in its unit", (
         QUANTITY := Quantity("quantity", "response"),
         UNIT := Quantity("unit", "its unit", short="unit"),
@@ -50,13 +51,13 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
             error="relative_error"),
         Quantity("zero_crossing_period", "zero-crossing period", "s", symbol="Tz", error="relative_error"),
         Quantity("relative_error", "estimated relative error of the significant amplitude", "1",
-            short="relative error", shown=".1e"),
+            short="relative error", shown=".1e", contract=False),
         Quantity("sampling_error", "part of it by the sampling of the transfer function", "1", shown=".1e",
-            printed=False),
+            printed=False, contract=False),
         Quantity("truncation_error", "part of it by waves beyond the frequencies", "1", shown=".1e",
-            printed=False),
+            printed=False, contract=False),
         Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
-            printed=False),
+            printed=False, contract=False),
     ), dimension="irregular_response", prefix="irregular_response"),
     AIR_GAPS := Group("air_gaps", "heights of points above the waves, linear in these", (
         Quantity("x", "x of the point at rest", "m", value=lambda it: it.point.at[0], short="x", shown=".6g"),
@@ -73,11 +74,11 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
             value=lambda it: it.relative_elevation.largest_amplitude, short="largest", shown=".4g"),
         Quantity("smallest_air_gap", "most probable smallest height above the waves in the duration", "m",
             short="smallest air gap", shown=".4g", note="negative where the water rises above the point"),
-        Quantity("air_gap_error", "its estimated error", "m", short="error", shown=".1e"),
+        Quantity("air_gap_error", "its estimated error", "m", short="error", shown=".1e", contract=False),
     ), dimension="air_gap", prefix="air_gap"),
     joined_array("mean_drift_force", "mean force on the bodies along x", "", unit="N/m",
         note="NaN about an axis in waves on two levels"),
-    joined_array("mean_drift_error", "its estimated error", "", unit="N/m"),
+    joined_array("mean_drift_error", "its estimated error", "", unit="N/m", contract=False),
     joined_array("mean_absorbed_power", "mean power that the linear damping of attachments takes", "", unit="W/m"),
     DOFS,
     joined_array("equivalent_damping", "linear damping in place of quadratic damping", OF_BODIES, unit="kg/(m s)",
@@ -103,7 +104,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
             value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
             note="`null` without a thickness"),
         Quantity("relative_error", "largest estimated error of these, relative to the largest along the beam", "1",
-            short="error", shown=".0e"),
+            short="error", shown=".0e", contract=False),
         _load_error("bending_moment", "bending moment", "M"),
         _load_error("shear_force", "shear force", "Q"),
         _load_error("deflection", "deflection", "w"),

@@ -30,13 +30,13 @@ IMPULSE_RESPONSE = Group("impulse_response", "impulse responses of radiation, by
         symbol="b", unit="kg/(m s)", of_roll=("kg/s", "kg m/s"), variable="impulse_radiation_damping"),
     joined_array("causality_error", "difference of added mass and damping by the impulse responses and in the "
         "frequency domain, relative to the whole of both motions at each frequency", "impulse_omega", unit="1",
-        short="causality error", shown=".1e"),
+        short="causality error", shown=".1e", contract=False),
     joined_array("ogilvie_error", "difference of the added mass at infinite frequency by Ogilvie's relation and by its "
-        "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e"),
+        "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e", contract=False),
     joined_array("impulse_response_error", "estimated error of the impulse responses, relative to their values at "
-        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error"),
+        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error", contract=False),
     IMPULSE_ERROR := joined_array("relative_error", "estimated relative error of the impulse responses", "", unit="1",
-        shown=".1e", variable="impulse_relative_error"),
+        shown=".1e", variable="impulse_relative_error", contract=False),
 ), dimension="impulse_response_analysis", note=NUMBERED)
 MOTION = Group("motion", "motions in waves over time, by analysis", (
     MOTION_TIMES := joined_array("times", "time after the waves begin", "motion_time", unit="s", symbol="t",
@@ -63,5 +63,5 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
         variable="motion_standard_deviation", **_MOTION),
     LARGEST := joined_array("largest", "largest motion after the ramp", "dof", variable="motion_largest", **_MOTION),
     MOTION_ERROR := joined_array("relative_error", "estimated error of the motions relative to the largest", "",
-        unit="1", shown=".1e", variable="motion_relative_error"),
+        unit="1", shown=".1e", variable="motion_relative_error", contract=False),
 ), dimension="motion_analysis", note=NUMBERED)

@@ -11,7 +11,7 @@ from typing import Any
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.plain import plain

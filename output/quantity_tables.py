@@ -58,6 +58,7 @@ def reference_table(kind: Group) -> str:
             rows.append((key, "", "", _noted(what, part.note), ""))
             continue
         variable = f"`{name}`" + (f" ({', '.join(dimensions)})" if dimensions else "") if name else ""
+        variable += " †" if name and not (part.contract or part.in_summary) else ""
         rows.append(
             (key if part.in_summary else "", part.symbol, part.unit_text, _noted(part.meaning, part.note), variable)
         )

@@ -205,7 +205,7 @@ EXACT = Group("exact", "frequencies of a closed form", (
     FORMULA := Quantity("formula", "formula", printed=False),
     Quantity("order", "order", "1", "n"),
     Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
-    Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
+    Quantity("difference", "relative difference of the solution", "1", shown="+.1e", contract=False),
 ), record=_exact, dimension="exact_mode")
 SOLVER = Group("solver", "how the modes were found", (
     MODEL := Quantity("model", "how the plan is solved", value=lambda tank: tank.model),

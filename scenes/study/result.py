@@ -25,7 +25,7 @@ class Study:
     """The errors and costs of a scene in many solutions. ``print`` shows the tables of the command line.
 
     Attributes:
-        measured: all that was found: ``rows`` with family or model, degree, errors, estimate, seconds by stage and
+        measured: all that was found: ``rows`` with family or model, degree, errors, estimate, seconds and
             memory; per metre of width ``rates`` and ``gain``, the fitted orders beside those of theory.
         text: the tables.
         csv: the rows, at full precision.

@@ -54,10 +54,18 @@ def contract() -> str:
     return "\n".join(lines) + "\n"
 
 
-def unpromised(kind: Group) -> tuple[set[str], set[str]]:
-    """Return the keys, and the variables, whose values are not promised."""
-    found = [(place, name) for place, name, _, part in kind.places() if not part.contract]
-    return {place for place, _ in found}, {name for _, name in found}
+def unpromised() -> re.Pattern[str]:
+    """Return what matches keys of ``summary.json``, and variables of ``dataset.nc``, whose values are not promised."""
+    found = []
+    for kind in KINDS.values():
+        lists = {place for place, _, _, part in kind.places() if isinstance(part, Group) and part.dimension}
+        for place, name, _, part in kind.places():
+            if not part.contract:
+                key, parts = "", place.split(".")
+                for number, word in enumerate(parts, 1):
+                    key += rf"\.{word}" + r"(\[\d+\]|\.\w+)?" * (".".join(parts[:number]) in lists)
+                found += [f"summary{key}", r".*\.nc: " + re.sub(r"\{.*?\}", r"\\w+", name or "-")]
+    return re.compile("|".join(dict.fromkeys(found)))
 
 
 def _commands(command: click.Command, name: str) -> Iterator[str]:

@@ -91,7 +91,7 @@ def test_what_is_loaded_is_what_was_saved(solved: tuple[str, he.Result, Path]) -
     _, result, folder = solved
     loaded = he.load(folder)
     assert content(loaded.summary) == content(result.summary)
-    assert loaded.summary == json.loads((folder / "summary.json").read_text())
+    assert content(loaded.summary) == content(json.loads((folder / "summary.json").read_text()))
     told = str(result).rpartition("; seconds:")[0]
     assert str(loaded).startswith(told)
     assert [section.notes for section in loaded.sections] == [section.notes for section in result.sections]

@@ -88,7 +88,7 @@ CASES = {
         finest=1e-11,
     ),
 }
-COLUMNS = ("case", "tolerance", "status", "model", "modes", "true_error", "estimate", "seconds", "unknowns", "attempts")
+COLUMNS = ("case", "tolerance", "status", "model", "modes", "true_error", "estimate", "seconds", "unknowns")
 
 
 def frequencies(case: LevelCase, tolerance: float) -> tuple[np.ndarray, Any]:
@@ -112,7 +112,6 @@ def measured(name: str, case: LevelCase, reference: np.ndarray, tolerance: float
         "estimate": max(one.relative_error for one in solution.modes),
         "seconds": time.process_time() - start,
         "unknowns": solution.size["dofs"],
-        "attempts": solution.attempts,
     }
 
 

@@ -41,7 +41,7 @@ from hydroelastic.fem.plan.polynomials import (
 )
 from hydroelastic.fem.plan.released import ReleasedProblem, released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
@@ -235,7 +235,6 @@ class PlanSolution:
         plates: the plates as bodies, in the shapes of each symmetry class.
         errors: relative errors of their frequencies by cause, shape (causes, modes).
         counted: whether the number of modes is confirmed.
-        attempts: number of resolutions that were solved.
         sizes: numbers of the last one, by name.
         count_method: what confirms the number.
     """
@@ -244,7 +243,6 @@ class PlanSolution:
     plates: dict[ClassParity, tuple[PlanPlate, ...]]
     errors: np.ndarray
     counted: bool
-    attempts: int
     sizes: dict[str, int]
     count_method: str = BY_INERTIA
 
@@ -262,8 +260,7 @@ def solve_plan(
     attempts = numbered(1)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers")
         problems = {parity: model.problem(resolution, parity) for parity in mirrored_classes(model.mirrors)}
         pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
         modes, poles = solve_classes(pencils, count + 1, tolerance), len(model.parts(resolution).poles.shifts)
@@ -274,7 +271,6 @@ def solve_plan(
                 modes, 3, lambda one, own: model.errors(resolution, one, problems[one.parity][1], own)
             ),
             counted=count_is_confirmed(modes, lambda parity: model.stacked(resolution.coarser, parity)),
-            attempts=attempt,
             sizes={
                 "problems": len(modes.classes),
                 "degree": resolution.degree,

@@ -19,7 +19,7 @@ from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plate_tone import released_limits
 from hydroelastic.fem.plan.released import ReleasedModes, ReleasedProblem, released_modes
 from hydroelastic.fem.plan.truncation import finer_count
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.arrays import FloatArray
 
@@ -58,8 +58,7 @@ def solve_released(
     attempts, parities = numbered(1), mirrored_classes(model.mirrors)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers and more")
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers and more")
         found = list(filter(None, (_solved_class(model, resolution, parity, count) for parity in parities)))
         ordered = sorted(
             (float(value), number, place)
@@ -77,7 +76,6 @@ def solve_released(
             plates={one.one.parity: one.plates for one in found},
             errors=np.array([[found[number].errors[place] for _, number, place in ordered]]),
             counted=all(len({int(np.sum(values < shift)) for values in one.values[1:]}) == 1 for one in found),
-            attempts=attempt,
             sizes={
                 "problems": len(found),
                 "degree": resolution.degree + 1,
@@ -164,8 +162,6 @@ def _mode_set(pencil: CoupledPencil, problem: ReleasedProblem, found: ReleasedMo
         completed=completed,
         zero_modes=int(np.sum(problem.stiffness == 0.0)),
         converged=len(limits),
-        iterations=1,
-        solves=0,
     )
 
 

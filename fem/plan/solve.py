@@ -21,7 +21,7 @@ from hydroelastic.fem.plan.mesh_problem import MeshProblem
 from hydroelastic.fem.plan.plan import PlanModel, PlanSolution, solve_plan
 from hydroelastic.fem.plan.plate_tone import class_tones, listed_tones
 from hydroelastic.fem.plan.released_solve import solve_released
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.volume.problem import VolumeProblem
 from hydroelastic.fem.volume.solve import VolumeSolution, solve_volume
 from hydroelastic.physics.level_tank import FilePlan, LevelTank
@@ -42,33 +42,29 @@ def solve_smallest_model(
     model = model or level_model(physical)
     if model == "orders":
         return solve_level_tank(physical, tolerance=tolerance, modes=modes, tones=tones, report=report)
-    watch = Stopwatch()
     tank = physical.scaled()
     problems: list[LevelProblem] = []
     found: PlanSolution | VolumeSolution
-    with watch.stage("modes"):
-        if model == "volume":
-            assert isinstance(tank, VolumeTank)
-            found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
-            tones_of = partial(listed_tones, tank)
-        else:
-            plan = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
-            released = tank.top == "pressure_release" and len(tank.plates) > 0
-            found = (solve_released if released else solve_plan)(plan, tolerance=tolerance, count=modes, report=report)
-            problems += [
-                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], model=plan)
-                for one in found.modes.classes
-            ]
-            tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan)
+    if model == "volume":
+        assert isinstance(tank, VolumeTank)
+        found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
+        problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
+        tones_of = partial(listed_tones, tank)
+    else:
+        plan = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
+        released = tank.top == "pressure_release" and len(tank.plates) > 0
+        found = (solve_released if released else solve_plan)(plan, tolerance=tolerance, count=modes, report=report)
+        problems += [
+            MeshProblem(symmetry_class=one, plates=found.plates[one.parity], model=plan) for one in found.modes.classes
+        ]
+        tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan)
     errors = found.relative_errors
     classes = found.modes
     has_water = any(one.pencil.surfaces for one in classes.classes)
     found_tones: list[PlateTone] = []
     if tones and any(plate.is_elastic for plate in tank.plates):
         report("first elastic tones of the plates")
-        with watch.stage("elastic tone"):
-            found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
+        found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
     measures = f"; {physical.plan.measures}" if isinstance(physical.plan, FilePlan) else ""
     solution = LevelSolution(
         physical=physical,
@@ -95,9 +91,6 @@ def solve_smallest_model(
             "surface_unknowns": sum(one.pencil.size for one in classes.classes),
             "plate_shapes": sum(one.pencil.body_size for one in classes.classes),
         },
-        solves=sum(one.modes.solves for one in classes.classes),
-        attempts=found.attempts,
         reasons=(),
-        seconds=dict(watch.seconds),
     )
     return replace(solution, reasons=tuple(shortcomings(solution)))

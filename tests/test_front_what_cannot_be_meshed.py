@@ -59,9 +59,9 @@ depth = 2.0
 SCENES = {
     "a draught of nothing": (BARGE.format(draught=3e-8), '[[body]] number 1, key "draught" = 3e-08'),
     "a draught of little": (BARGE.format(draught=1e-5), "too little to be meshed"),
-    "a layer of nothing": (THIN_LAYER, "so thin that its cells would be flat"),
+    "a layer of nothing": (THIN_LAYER, "scene.toml: [tank], [[liquid]]: the liquid cannot be meshed: one of"),
     "a wedge, in waves": (SPAR.format(analysis="response", frequencies="omega = [0.2, 0.6]"), "a wedge of less than"),
-    "a wedge, in resonance": (SPAR.format(analysis="resonance", frequencies=""), "a wedge of less than"),
+    "a wedge, in resonance": (SPAR.format(analysis="resonance", frequencies=""), "scene.toml: [sea], [[liquid]], [[body]]: "),
 }
 
 

@@ -184,7 +184,7 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
         with misplacements():
             made = unfolded_volume(tank, sizes, mirrors)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     refinements = sizes.refinements if made.surfaces else 0
     unknowns = unknown_count(made.noded, resolution.degree, refinements)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"

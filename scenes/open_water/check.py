@@ -72,7 +72,7 @@ def _sizes(scene: TankParts) -> Iterator[str]:
     try:
         cells, degree, unknowns = first_size(water, scene.accuracy.tolerance, band)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     if not over_frequency:
         return
     orders = ""

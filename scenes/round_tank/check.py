@@ -59,7 +59,7 @@ def _require_mesh(scene: OrderedTankScene) -> None:
     try:
         make_mesh(tank, initial_resolution(tank, asked.tolerance, modes=asked.modes, tones=tones, motions=motions))
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
 
 
 def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:

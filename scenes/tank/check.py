@@ -28,7 +28,7 @@ def check_tank(scene: TankParts) -> Iterator[Section]:
     try:
         sizes = tuple(_sizes(scene))
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=sizes))
 
 

@@ -61,7 +61,10 @@ SCENES = {
     "a draught of little": (BARGE.format(draught=1e-5), "too little to be meshed"),
     "a layer of nothing": (THIN_LAYER, "scene.toml: [tank], [[liquid]]: the liquid cannot be meshed: one of"),
     "a wedge, in waves": (SPAR.format(analysis="response", frequencies="omega = [0.2, 0.6]"), "a wedge of less than"),
-    "a wedge, in resonance": (SPAR.format(analysis="resonance", frequencies=""), "scene.toml: [sea], [[liquid]], [[body]]: "),
+    "a wedge, in resonance": (
+        SPAR.format(analysis="resonance", frequencies=""),
+        "scene.toml: [sea], [[liquid]], [[body]]: ",
+    ),
 }
 
 

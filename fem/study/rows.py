@@ -7,9 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.memory import peak_memory
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.stopwatch import Stopwatch, peak_memory
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.studied_tank import StudiedTank
 from hydroelastic.fem.tank.error_estimates import frequency_errors

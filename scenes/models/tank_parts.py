@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from math import isinf
 from functools import cached_property
+from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
@@ -181,7 +181,7 @@ class TankParts(SceneModel):
             """Files for other programs."""
 
     def model_post_init(self, context: Any) -> None:
-        """Keep the file's name for messages, which is not compared, and where outlines are named the folder, which is."""
+        """Keep the file's name for messages, which is not compared, and with outlines the folder, which is."""
         if context is None:
             return
         if any(body.file is not None for _, body in self.floats):

@@ -21,11 +21,14 @@ class TooManyCellsError(MeshError):
     """More cells than are to be made; `cells` by their sizes."""
 
     def __init__(self, cells: float, most: float) -> None:
-        super().__init__(
-            f"about {cells:.1g} tetrahedra would be needed, and {most:.1g} can be made: the cells are as small as the "
-            "liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow over a large depth"
+        super().__init__(cells, most)
+        self.cells, self.most = round(cells), most
+
+    def __str__(self) -> str:
+        return (
+            f"about {self.cells:.1g} tetrahedra would be needed, and {self.most:.1g} can be made: the cells are as small "
+            "as the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow over a large depth"
         )
-        self.cells = round(cells)
 
 
 FARTHEST = 1e30

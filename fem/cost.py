@@ -27,8 +27,8 @@ _KINDS = {
     "plan": _Kind(2.5, 20.0, 1.0, 0.2, 1_000.0, 8.0),  # ice_in_a_triangle, rectangular_cover, two_plates
     "volume": _Kind(2.0, 12.0, 0.3, 0.17, 1_300.0, 100.0),  # barge_in_a_dock, scow_in_a_basin, sloping_basin
     "multigrid": _Kind(2.0, 8.0, 4.0, 0.3, 1_000.0, 100.0),
-    "sea": _Kind(2.0, 0.0, 20.0, 0.2, 3_000.0, 0.0),  # open_circle … point_absorber
-    "string": _Kind(1.0, 0.0, 1.0, 0.12, 1_000.0, 8.0),  # string_ramp … string_with_load
+    "sea": _Kind(2.0, 0.0, 15.0, 0.2, 3_000.0, 0.0),  # open_circle … point_absorber
+    "string": _Kind(1.8, 0.0, 1.0, 0.17, 1_000.0, 8.0),  # string_ramp … string_with_load
     "thread": _Kind(2.0, 0.0, 10.0, 0.17, 1_000.0, 8.0),  # catenary … jumper
     "roll": _Kind(0.7, 0.0, 1.0, 0.12, 0.0, 0.0),  # swell
 }

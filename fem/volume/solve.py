@@ -132,7 +132,10 @@ def solve_volume(
 
         def require_room(cells: NodedMesh, refinements: int) -> None:
             unknowns, problems = unknown_count(cells, resolution.degree, refinements), image_count(mirrors)
-            needed, free = cost(unknowns, resolution.degree, count, "volume", problems, layered).memory, free_memory() + cost(0, 1, 0, "volume").memory  # of the program
+            needed, free = (
+                cost(unknowns, resolution.degree, count, "volume", problems, layered).memory,
+                free_memory() + cost(0, 1, 0, "volume").memory,
+            )  # of the program
             if needed > free:
                 raise TooLargeError(
                     f"{unknowns} unknowns of degree {resolution.degree} need about {needed / 1e9:.1f} GB, and "

@@ -11,8 +11,8 @@ from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import LevelModel, level_model, models_of
 from hydroelastic.fem.level_bed.solution import LevelSolution
-from hydroelastic.fem.memory import peak_memory
 from hydroelastic.fem.plan.solve import solve_smallest_model
+from hydroelastic.fem.progress import peak_memory
 from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.physics.level_tank import LevelTank
 

@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.memory import peak_memory
+from hydroelastic.fem.progress import peak_memory
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.studied_tank import StudiedTank

@@ -70,7 +70,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     except (EigenSolverError, TooLargeError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     if not solution.modes:
         wrong = "nothing oscillates: no water is free, and no plate can move against a restoring force"
         raise SceneError(Problem(key="[[body]]", wrong=wrong, remedy="Leave a part of the top free"), file=None)

@@ -22,7 +22,7 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
     try:
         solved = solve_open_water(open_water_problem(scene, comm), requests, report)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     except UnsolvedMotionError as error:

@@ -23,7 +23,7 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
     try:
         solution = round_solution(physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     exact = lowest_between_slopes(physical)

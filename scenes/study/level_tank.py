@@ -88,7 +88,7 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
     except EigenSolverError as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     return LevelStudy(scene=scene, tolerances=plan.tolerances, reference=reference, rows=tuple(rows))
 
 

@@ -20,7 +20,11 @@ REFERENCES = Path(__file__).parent / "reference" / "string_and_roll.json"
 CASES = [case for case in json.loads(REFERENCES.read_text(encoding="utf-8"))["cases"] if case["kind"] != "roll"]
 # Of free motions alone.
 STILL = {"times": [0.0, 0.01], "positions": [0.0, 0.25, 1.0], "frames": 0}
-SHORT: dict[str, Any] = {"positions": [0.0, 0.09, 0.36, 0.81, 1.0], "times": {"start": 0.0, "stop": 1.5, "number": 16}, "frames": 0}
+SHORT: dict[str, Any] = {
+    "positions": [0.0, 0.09, 0.36, 0.81, 1.0],
+    "times": {"start": 0.0, "stop": 1.5, "number": 16},
+    "frames": 0,
+}
 
 
 def hung(string: dict[str, Any], motion: dict[str, Any] | None = None, **parts: Any) -> dict[str, Any]:

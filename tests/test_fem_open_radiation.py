@@ -93,7 +93,7 @@ def test_circle_in_the_limits() -> None:
 
 
 def test_a_flat_plate_in_the_limit_of_high_frequency() -> None:
-    """π/8 ρl² in heave and 3π/64 ρl² in pitch by √12 at x = l, as ψ = 0 beside it doubles a plate in unbounded water."""
+    """π/8 ρl² in heave, and 3π/64 ρl² in a pitch of mean square 1: of half a plate in unbounded water."""
     plate = {"length": 2.0, "flexural_rigidity": 1e6, "mass_per_length": 50.0}
     table = radiation(sea(plate, tolerance=1e-8), math.inf)
     exact = DENSITY * 4.0 * np.diag([math.pi / 8.0, 3.0 * math.pi / 64.0])

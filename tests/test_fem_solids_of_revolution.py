@@ -513,9 +513,9 @@ def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> Non
     """To 1e-6, of all motions together; over a bed heave has a logarithm at low frequencies."""
     request = {"kind": "impulse_response", "times": [0.0, 1.0, 10.0]}
     (table,) = solved([LOW], depth, 1e-6, request).impulse_response
-    # Measured 2.5e-7 in deep water; the estimate, 1.3e-5, is of the whole ray.
-    assert table.causality_error.max() < 1e-6
-    assert table.causality_error.max() < table.relative_error < 2e-5
+    # Measured 2.5e-7 in deep water. The estimate, 1.7e-3, is of K(0), which damping beyond the last frequency adds to.
+    assert table.causality_error.max() < 1e-6 < table.relative_error < 3e-3
+    assert np.all(table.impulse_response_error[1:] < 0.5 * table.impulse_response_error[0])
     omega = float(table.omega[12])
     (known,) = solved([LOW], depth, 1e-6, radiation(omega, math.inf)).radiation
     size = np.abs(known.added_mass[0]).max()

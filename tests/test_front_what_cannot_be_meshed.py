@@ -77,7 +77,7 @@ tolerance = 0.1
 modes = 6
 """
 SCENES = {
-    "a deep well": (WELL.format(depth=2500.0), "tetrahedra would be needed, and 3e+06 can be made"),
+    "a deep well": (WELL.format(depth=2500.0), "tetrahedra are needed, and 3e+06 can be made"),
     "a draught of nothing": (BARGE.format(draught=3e-8), '[[body]] number 1, key "draught" = 3e-08'),
     "a draught of little": (BARGE.format(draught=1e-5), "too little to be meshed"),
     "a layer of nothing": (THIN_LAYER, "scene.toml: [tank], [[liquid]]: the liquid cannot be meshed: one of"),

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.shape_curves import FloatSection, SectionField, SurfaceCurve
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.plots import (
     BODY,
     BODY_EDGE,

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
+from time import perf_counter
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.plots import NoRendererError
-from hydroelastic.output.provenance import TIMING, Summary, read_summary
+from hydroelastic.output.provenance import SECONDS, Summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.variables import Variable
 
@@ -35,7 +36,7 @@ def write_results(
     parts: Callable[[Path], None] | None = None,
 ) -> tuple[str, ...]:
     """Write a result folder on rank 0 (collective)."""
-    comm, watch = MPI.COMM_WORLD, Stopwatch()
+    comm, start = MPI.COMM_WORLD, perf_counter()
     problem: BaseException | None = None
     warnings: list[str] = []
     # Others than rank 0 wait for the folder until it is there, or will not be.
@@ -49,29 +50,27 @@ def write_results(
     elif comm.rank == 0:
         try:
             with result_folder(out, scene_file=scene_file) as folder:
-                with watch.stage("write"):
-                    report("tables")
-                    tables(folder)
-                    labelled = arrays()
-                    if parts is not None:
-                        comm.bcast(folder)
-                        wait = False
-                        parts(folder)
+                report("tables")
+                tables(folder)
+                labelled = arrays()
+                if parts is not None:
+                    comm.bcast(folder)
+                    wait = False
+                    parts(folder)
                 if pictures is not None:
-                    with watch.stage("draw"):
-                        report("pictures")
-                        (folder / "images").mkdir()
-                        try:
-                            pictures(folder / "images")
-                        except NoRendererError as error:
-                            warnings.append(f"no images of fields: {error}")
-                            with suppress(OSError):
-                                # Curves stay.
-                                (folder / "images").rmdir()
-                read_summary(summary)[TIMING].update(watch.seconds)
+                    report("pictures")
+                    (folder / "images").mkdir()
+                    try:
+                        pictures(folder / "images")
+                    except NoRendererError as error:
+                        warnings.append(f"no images of fields: {error}")
+                        with suppress(OSError):
+                            # Curves stay.
+                            (folder / "images").rmdir()
+                summary[SECONDS.key] += perf_counter() - start
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
-                # The dataset contains the summary, which by now has the seconds of all stages except this one.
+                # The dataset contains the summary, which by now has the seconds of all but this.
                 variables = complete_variables(labelled, summary, kind)
                 write_dataset(folder / DATASET, variables, {**global_attributes(summary), **attributes})
                 if page is not None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.level_tank.quantities import FREQUENCY, KIND, MODE_OMEGA, MODES, MULTIPLICITY, ORDER
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
 from hydroelastic.output.plots import (

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.shape_curves import SectionField
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.output.plots import PictureOptions, Sheets
 from hydroelastic.output.reading import Reading

@@ -187,7 +187,9 @@ def animate_motion(field: SectionField, name: str, sheets: Sheets) -> None:
     with page_style():
         page = _Page(View(field.mapped(np.abs)), sheets.options.animation_width)
         instants = ((field.at(part), f"{field.title}, t = {part:.2f} T") for part in np.arange(FRAMES) / FRAMES)
-        write_gif([pixels(page.drawn(*instant)) for instant in instants], sheets.folder / f"{name}.gif")
+        write_gif(
+            [pixels(page.drawn(*instant)) for instant in instants], sheets.folder / f"{name}.gif", kept=mode_colours()
+        )
 
 
 def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None:
@@ -268,7 +270,7 @@ class _Page:
         axes.tick_params(length=9.0)
         axes.set_xlabel("x, m")
         axes.set_ylabel("y, m")
-        axes.yaxis.set_label_coords(-0.75 / wide, 0.5 * (view.ceiling - view.bottom) / up)
+        axes.yaxis.set_label_coords(-1.0 / wide, 0.5 * (view.ceiling - view.bottom) / up)
         for name, density, depth, colour in zip(
             "₂₁", field.densities, (-view.depth, view.upper), (_LOWER, _UPPER), strict=False
         ):
@@ -367,7 +369,7 @@ def _draw_walls(axes: Axes, field: SectionField, view: View, thin: float) -> Non
     goes_on = set(field.goes_on) | ({"bottom"} if view.depth < field.depth else set())
     goes_on |= {"top"} if view.upper < field.upper_depth else set()
     # Walls begin beyond the liquid by half their width.
-    width = 0.5 * 3.6 * thin / 72.0 * field.length / (axes.get_position().width * PAGE)
+    width = 0.42 * 3.6 * thin / 72.0 * field.length / (axes.get_position().width * PAGE)
     left, right, low, high = start - width, end + width, bottom - width, ceiling + width
     top = ceiling + 2.0 * width if field.lid else view.top
     beyond = "sides" in goes_on

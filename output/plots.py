@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.cm import ScalarMappable
     from matplotlib.colorbar import Colorbar
-    from matplotlib.colors import ListedColormap
+    from matplotlib.colors import Colormap, ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.text import Text
@@ -291,19 +291,22 @@ def pixels(figure: Figure) -> np.ndarray:
     return np.array(figure.canvas.buffer_rgba())[:, :, :3]  # type: ignore[attr-defined]
 
 
-def write_gif(pages: Iterable[np.ndarray], path: Path, *, seconds: float = SECONDS) -> None:
-    """Write pages one after the other, with the same colours for all, as a GIF that repeats itself."""
+def write_gif(
+    pages: Iterable[np.ndarray], path: Path, *, seconds: float = SECONDS, kept: Colormap | None = None
+) -> None:
+    """Write pages one after the other, with the same colours for all, as a GIF that repeats itself; a scale is kept."""
     from PIL import Image
 
     images = [Image.fromarray(page) for page in pages]
+    scale = b"" if kept is None else kept(np.arange(0, 256, 2), bytes=True)[:, :3].tobytes()
     # Chosen from four quarters to cover all colours: the most frequent ones alone would turn thin lines grey.
     judged = np.vstack([np.asarray(images[number]) for number in range(0, len(images), max(len(images) // 4, 1))])
-    palette = Image.fromarray(judged).quantize(255, method=Image.Quantize.MAXCOVERAGE)
+    chosen = Image.fromarray(judged).quantize(255 - len(scale) // 3, method=Image.Quantize.MAXCOVERAGE).getpalette()
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(scale + bytes(chosen or ()))
     first, *others = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    hundredths = max(round(100.0 * seconds / len(images)), 2)
-    first.save(
-        path, save_all=True, append_images=others, duration=10 * hundredths, loop=0, optimize=False, disposal=1
-    )  # fmt: skip
+    time = 10 * max(round(100.0 * seconds / len(images)), 2)
+    first.save(path, save_all=True, append_images=others, duration=time, loop=0, optimize=False, disposal=1)
 
 
 def label_axes(

@@ -54,7 +54,7 @@ def draw_level_tank(tank: SampledTank, sheets: Sheets, report: Report) -> None:
                     _page(tank.sample, shape, f"{title}, t = {part:.2f} T", width, float(np.cos(2.0 * np.pi * part)))
                     for part in np.arange(FRAMES) / FRAMES
                 )
-                write_gif(map(pixels, pages), sheets.folder / f"{name}.gif")
+                write_gif(map(pixels, pages), sheets.folder / f"{name}.gif", kept=mode_colours())
 
 
 def _title(number: int, mode: Reading) -> str:

@@ -28,6 +28,7 @@ from hydroelastic.output.plots import (
     arrow_key,
     new_page,
     page_style,
+    part_of_colours,
     pixels,
     place,
     write_caption,
@@ -225,7 +226,8 @@ def _draw_lines(view: _View, lines: Sequence[_Line], names: Sequence[str], sheet
 def _animate(view: _View, lines: Sequence[_Line], name: str, sheets: Sheets) -> None:
     with page_style():
         pages = [pixels(_page(view, line, sheets.options.animation_width)) for line in lines]
-    write_gif(pages, sheets.folder / f"{name}.gif", seconds=SECONDS / FRAMES * len(lines))
+    seconds, kept = SECONDS / FRAMES * len(lines), part_of_colours(SEQUENCE, 0.0, 1.0)
+    write_gif(pages, sheets.folder / f"{name}.gif", seconds=seconds, kept=kept)
 
 
 def _page(view: _View, line: _Line, width: int) -> Figure:

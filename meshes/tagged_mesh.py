@@ -26,8 +26,8 @@ class TooManyCellsError(MeshError):
 
     def __str__(self) -> str:
         return (
-            f"about {self.cells:.1g} tetrahedra are needed, and {self.most:.1g} can be made: cells are as small as "
-            "the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow over a large depth"
+            f"about {self.cells:.1g} tetrahedra are needed, and {self.most:.1g} can be made: cells are as small "
+            "as the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow in deep liquid"
         )
 
 

@@ -316,7 +316,7 @@ def _least_radius(solid: SolidFloat) -> float:
     return min([0.5 * min(solid.size), *(r for r, z in solid.outline if r > 0.0 and z <= 0.0)])
 
 
-def _gaps(tank: VolumeTank, sizes: VolumeSizes) -> list[tuple[tuple[float, float], float]]:
+def _gaps(tank: VolumeTank, sizes: VolumeSizes) -> list[tuple[FloatArray, float]]:
     return [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
 
 

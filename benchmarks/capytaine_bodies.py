@@ -47,7 +47,7 @@ def circle(given: Mapping[str, float], length: float, panels: int, two: bool = F
 def buoy(given: Mapping[str, Any], panels: int, lid: bool = False) -> tuple[Array, int]:
     """Return a + ib/ω of heave, kg, and the number of panels."""
     hull = capytaine.RotationSymmetricMesh.from_profile_points(_profile(given["draught"], panels), n=4 * panels)
-    cover = None
+    cover: Any = None
     if lid:
         radii = np.linspace(0.0, 1.0, panels // 2 + 1)
         disc = np.stack([radii, np.zeros_like(radii), np.zeros_like(radii)], axis=1)

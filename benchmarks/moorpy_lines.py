@@ -59,7 +59,7 @@ def _system(given: Mapping[str, Any], places: Array) -> Any:
 
 
 def _rest(system: Any) -> Array:
-    before = np.full(2, np.inf)
+    before: Array = np.full(2, np.inf)
     for _ in range(100):
         system.solveEquilibrium(tol=1e-6)
         ends = np.array([system.lineList[0].fA[[0, 2]], -system.lineList[-1].fB[[0, 2]]])

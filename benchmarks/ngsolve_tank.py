@@ -20,8 +20,16 @@ import numpy as np
 import scipy.sparse
 from netgen.geom2d import SplineGeometry
 
-from hydroelastic.benchmarks.tank_top import MODES, RING_RATIO, Array, Resolution, Tank, dry_shapes
-from hydroelastic.benchmarks.tank_top import frequencies, resolution
+from hydroelastic.benchmarks.tank_top import (
+    MODES,
+    RING_RATIO,
+    Array,
+    Resolution,
+    Tank,
+    dry_shapes,
+    frequencies,
+    resolution,
+)
 
 ngsolve.SetNumThreads(1)
 
@@ -39,7 +47,7 @@ def tank(given: Tank, degree: int, halves: bool) -> tuple[Array, int]:
     found = []
     for half in ("even", "odd") if halves else ("",):
         free = ngsolve.BitArray(space.FreeDofs(True))
-        kept = np.arange(len(top))
+        kept: Array = np.arange(len(top))
         if half == "odd":
             middle = space.GetDofs(mesh.Boundaries("middle"))
             free &= ~middle

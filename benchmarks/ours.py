@@ -92,7 +92,11 @@ def buoy(given: Given, tolerance: float) -> Numbers:
 def volume(given: Given, tolerance: float) -> Numbers:
     """The lowest frequencies of a tank in three dimensions, with estimates and count."""
     keys = {"length": given["length"], "width": given["width"], "gravity": given["gravity"]}
-    plate = {"kind": "plate", "outline": "rectangle", "position": [given["length"] / 2.0, given["width"] / 2.0]}
+    plate: dict[str, Any] = {
+        "kind": "plate",
+        "outline": "rectangle",
+        "position": [given["length"] / 2.0, given["width"] / 2.0],
+    }
     plate |= {"size": given["plate"], "flexural_rigidity": given.get("rigidity"), "mass_per_area": given.get("mass")}
     scene = {
         "kind": "tank",
@@ -131,12 +135,20 @@ def line(given: Given, tolerance: float) -> Numbers:
 def moved(given: Given, tolerance: float) -> Numbers:
     """The top tension of the jumper in its third period, N, with estimates, from steps and elements halved."""
     motion = {"end": "b", "amplitude": [given["amplitude"], 0.0, 0.0], "omega": tau / given["period"]}
-    analysis = {"kind": "motion", "times": [0.0, *given["times"]], "move": [motion | {"rise": given["period"]}]}
+    analysis: dict[str, Any] = {
+        "kind": "motion",
+        "times": [0.0, *given["times"]],
+        "move": [motion | {"rise": given["period"]}],
+    }
     analysis |= {"integrator": "generalized_alpha", "tolerance": tolerance}
     result = he.solve(_line(given, 1e-6, analysis))
     error = result.summary["motion"][0]["tension_error"]
     note = f"{result.summary['size']['steps']} steps, estimate {error / given['largest']:.1e}"
-    return lambda: (result.dataset.motion_tension.values[-len(given["times"]) :, -1], result.summary["size"]["dofs"], note)
+    return lambda: (
+        result.dataset.motion_tension.values[-len(given["times"]) :, -1],
+        result.summary["size"]["dofs"],
+        note,
+    )
 
 
 def _line(given: Given, tolerance: float, *analyses: Given) -> Any:

@@ -39,7 +39,8 @@ def peer_folder(package: str, *, install: bool, report: Callable[[str], None]) -
     if not found:
         raise PeerError(f"the metadata of hydroelastic do not name {package}")
     parts = [*found, *_KEPT, str(sys.implementation.cache_tag), sysconfig.get_platform()]
-    folder = cache_folder() / f"benchmark-peers-{hashlib.sha256('\n'.join(parts).encode()).hexdigest()[:12]}"
+    fingerprint = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:12]
+    folder = cache_folder() / f"benchmark-peers-{fingerprint}"
     if not folder.is_dir():
         if not install:
             raise PeerError("not installed")

@@ -2,8 +2,8 @@
 
 `references.json` has the exact numbers of each problem: tanks by four methods that share no code, 11 to 14 digits;
 sweeps by dry modes in gravity waves; circles by Ursell's multipoles with 800 terms, 13 digits; the hemisphere by those
-of Hulme and cylinders by a Galerkin method, 11 digits; the plate in a basin by two methods, 10 digits; the cube of water
-in closed form; strings by their series to 1e-15, null where a wave front is nearer than 5 % of its travel time;
+of Hulme and cylinders by a Galerkin method, 11 digits; the plate in a basin by two methods, 10 digits; the cube of
+water in closed form; strings by their series to 1e-15, null where a wave front is nearer than 5 % of its travel time;
 catenaries by Newton's method with 40 digits, lines in a stream by shooting to 1e-13; the jumper that is moved by a fine
 run of its field, 40 elements of degree 4 and steps of 0.025 s, good to 2e-5.
 """
@@ -86,7 +86,7 @@ _SWEEPS = {
     "position": _BASE | {"key": "start", "values": np.linspace(0.5, 5.5, 40).round(6).tolist(), "compared": 8},
     "stiffness": _BASE | {"key": "rigidity", "values": np.geomspace(5e2, 5e4, 100).round(6).tolist(), "compared": 20},
 }
-_CATENARY = {
+_CATENARY: dict[str, Any] = {
     **{"a": (0.0, -100.0), "b": (89.9, -40.8), "length": 130.0, "diameter": 0.1, "weight": 881.05},
     **{"rigidity": 7.51e8, "density": 1025.0, "gravity": 9.81, "normal_drag": 1.0, "tangential_drag": 0.0},
     **{"stream": 0.0, "shear": 0.0},
@@ -99,7 +99,7 @@ _STREAM = _CATENARY | {
     **{"a": (0.0, -60.0), "b": (80.0, -30.0), "length": 100.0, "diameter": 0.02, "weight": 5.0, "rigidity": 1e5},
     **{"normal_drag": 2.0 * 12.3 / 20.5, "tangential_drag": 2.0 * 0.644 / (20.5 * pi), "stream": 0.7},
 }
-_LINES = {
+_LINES: dict[str, dict[str, Any]] = {
     "catenary": _CATENARY,
     "jumper at rest": _JUMPER,
     "uniform stream": _STREAM,
@@ -128,7 +128,9 @@ beside the script on NGSolve.""",
                 *(_IMPORT, "ours:command", ({"arguments": ["-c", "import dolfinx, petsc4py, slepc4py, gmsh"]},)),
                 cases=("processes",),
             ),
-            Method("run aquarium --no-images", "ours:command", ({"arguments": [*_RUN, "--no-images"]},), ("processes",)),
+            Method(
+                "run aquarium --no-images", "ours:command", ({"arguments": [*_RUN, "--no-images"]},), ("processes",)
+            ),
             Method("run aquarium", "ours:command", ({"arguments": _RUN},), ("processes",)),
             Method("hydroelastic", "ours:sweep", ({"tolerance": 1e-7},), ("stiffness",)),
             Method("NGSolve", "ngsolve_tank:sweep", _LOOP.resolutions, ("stiffness",), "ngsolve"),
@@ -144,8 +146,8 @@ beside the script on NGSolve.""",
         "speed_against_error",
         """The ten lowest frequencies of tanks with a beam. *Error* is the largest relative error of ω.
 
-- **hydroelastic** is all of `he.solve` for an asked tolerance: frequencies, an error estimate for each, a count of modes
-  by an independent factorization, the first elastic tone, the pressure-release tone, and what older theories say.
+- **hydroelastic** is all of `he.solve` for an asked tolerance: frequencies, an error estimate for each, a count of
+  modes by an independent factorization, the first elastic tone, the pressure-release tone, and what older theories say.
 - **NGSolve**, **scikit-fem** solve once at a chosen degree and give frequencies; mesh and dry modes were tuned to these
   tanks by search. A tank that is its own mirror image is solved whole, or as two *halves* with a wall, or ψ = 0, in the
   middle.""",
@@ -155,7 +157,9 @@ beside the script on NGSolve.""",
             _NGSOLVE,
             Method("NGSolve", "ngsolve_tank:tank", _each("degree", range(4, 13), halves=True), _CENTRED, "ngsolve"),
             Method("scikit-fem", "scikit_fem_tank:tank", _each("degree", range(4, 11), halves=False), (), "scikit-fem"),
-            Method("scikit-fem", "scikit_fem_tank:tank", _each("degree", range(4, 11), halves=True), _CENTRED, "scikit-fem"),
+            Method(
+                "scikit-fem", "scikit_fem_tank:tank", _each("degree", range(4, 11), halves=True), _CENTRED, "scikit-fem"
+            ),
         ),
         (1e-4, 1e-6, 1e-8, 1e-9),
     ),
@@ -207,8 +211,8 @@ of a long cylinder, which is not what it is made for.
         "Heaving buoys: error against seconds",
         "buoys",
         """Added mass and radiation damping in heave of solids of revolution of radius 1 m at one frequency Ka = ω²a/g:
-a half-immersed sphere in infinitely deep water, and two upright cylinders of draught d over a bed at depth H. *Error* is
-|h − h_exact|/|h_exact|, h = a + ib/ω.
+a half-immersed sphere in infinitely deep water, and two upright cylinders of draught d over a bed at depth H. *Error*
+is |h − h_exact|/|h_exact|, h = a + ib/ω.
 
 - **hydroelastic** gets a tolerance, and gives an error estimate and the excitation forces of waves.
 - **Capytaine** gets flat panels from axis to water line in a wedge that is turned about the axis, its symmetry of
@@ -244,7 +248,7 @@ largest displacement. Both methods get a tolerance and give an error for each va
             "step": {"motion": {"kind": "step", "amplitude": 1.0}},
         },
         (
-            Method("field", "ours:string", _each("tolerance", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), method="field")),
+            Method("field", "ours:string", _each("tolerance", (1e-2, 1e-3, 1e-4, 1e-5), method="field")),
             Method("series", "ours:string", _each("tolerance", _POWERS[1::2], method="series")),
         ),
         (1e-3, 1e-5, 1e-7, 1e-9),
@@ -253,11 +257,11 @@ largest displacement. Both methods get a tolerance and give an error for each va
     "thread": Problem(
         "Flexible threads: error against seconds",
         "threads",
-        """Lines at rest, and a jumper whose top is moved by 10 m in 27 s. *Error*, at rest: the larger one of the errors of
-the forces on both ends, over the larger force; in motion: the largest error of the top tension in the third period,
-over the largest tension. All codes get the same weight, stiffness, drag and added mass, and no bending stiffness.
+        """Lines at rest, and a jumper whose top is moved by 10 m in 27 s. *Error*, at rest: the larger one of the
+errors of the forces on both ends, over the larger force; in motion: the largest error of the top tension in the third
+period, over the largest tension. All codes get the same weight, stiffness, drag and added mass, and no bending stiffness.
 
-- **hydroelastic** gets a tolerance, chooses its meshes and steps, and gives error estimates, in motion from several runs.
+- **hydroelastic** gets a tolerance, chooses meshes and steps, and gives error estimates, in motion by several runs.
 - **MoorPy**: its function `catenary`, whose tolerance is a displacement in metres; in a uniform stream, catenaries in a
   row, each with its mean drag as a weight. It knows neither sheared streams nor, in this use, motion.
 - **MoorDyn**: point masses in time; a line at rest by its two ways to initial conditions, in a stream followed until it
@@ -274,7 +278,7 @@ over the largest tension. All codes get the same weight, stiffness, drag and add
                 *("MoorDyn", "moordyn_lines:line", _each("segments", (10, 20, 40), in_motion=True), tuple(_LINES)[:2]),
                 "moordyn",
             ),
-            Method("MoorDyn", "moordyn_lines:moved", _each("segments", (17, 34, 68)), ("jumper moved",), "moordyn"),
+            Method("MoorDyn", "moordyn_lines:moved", _each("segments", (17, 34)), ("jumper moved",), "moordyn"),
         ),
         (1e-2, 1e-3, 2e-4),
         common=True,
@@ -295,16 +299,22 @@ surface, and the six lowest of a cube of water of 1 m, meshed in its volume. *Er
             "cube of water": _BASE | {"length": 1.0, "width": 1.0, "depth": 1.0, "plate": (0.0, 0.0), "modes": 6},
         },
         (
-            Method("hydroelastic", "ours:volume", _each("tolerance", _POWERS[:4])),
+            Method("hydroelastic", "ours:volume", _each("tolerance", _POWERS[:3])),
             Method("NGSolve, plan", "ngsolve_volume:tank", _each("degree", (3, 4, 5)), ("soft plate",), "ngsolve"),
             Method(
                 "NGSolve, volume",
                 "ngsolve_volume:tank",
-                tuple({"degree": degree, "size": size} for degree, size in ((2, 0.5), (3, 0.5), (3, 0.3), (3, 0.15))),
+                tuple({"degree": degree, "size": size} for degree, size in ((2, 0.5), (3, 0.5), (3, 0.3))),
                 *(("soft plate",), "ngsolve"),
             ),
-            Method("NGSolve, volume", "ngsolve_volume:tank", _each("degree", (2, 3, 4), cells=4), ("cube of water",), "ngsolve"),
+            Method(
+                "NGSolve, volume",
+                "ngsolve_volume:tank",
+                _each("degree", (2, 3, 4), cells=4),
+                ("cube of water",),
+                "ngsolve",
+            ),
         ),
-        (1e-3, 1e-4, 1e-5, 1e-6),
+        (1e-3, 1e-4, 1e-5),
     ),
 }

@@ -130,12 +130,14 @@ def measure(problem: Problem, name: str, *, quick: bool, repeats: int, install: 
                         found[place].append(workers[number].solve(problem.cases[case], chosen))
                     except (PeerError, FailedError) as error:
                         failed[number] = str(error)
-                        rows.append(_row(case, method, chosen, note=f"not measured: {error}"))
+                        rows.append(_row(case, method, chosen, f"not measured: {error}"))
             for place in sorted(found, key=lambda place: mixed[place][0]):
                 number, chosen = mixed[place]
                 if len(found[place]) == repeats + 1:
                     expected = _reference(problem.references.get(case, name), case)
-                    rows.append(_measured(case, problem.methods[number], chosen, found[place], expected, problem.common))
+                    rows.append(
+                        _measured(case, problem.methods[number], chosen, found[place], expected, problem.common)
+                    )
     finally:
         for worker in workers.values():
             worker.process.kill()
@@ -164,17 +166,14 @@ def _measured(case: str, method: Method, chosen: Resolution, found: list[Any], e
         error = float((away / (np.abs(exact[kept]).max() if common else np.abs(exact[kept]))).max())
     processor = [float(seconds[0]) for seconds in warm]
     first, _, third = quantiles(processor, n=4, method="inclusive") if len(warm) > 1 else (0.0, 0.0, 0.0)
-    return _row(
-        *(case, method, chosen),
-        **{"unknowns": unknowns, "error": error, "seconds": median(processor), "spread": third - first},
-        **{"cold": float(cold[0]), "clock": median(float(seconds[1]) for seconds in warm), "rounds": len(warm)},
-        note=note,
-    )
+    told = {"unknowns": unknowns, "error": error, "seconds": median(processor), "spread": third - first}
+    told |= {"cold": float(cold[0]), "clock": median(float(seconds[1]) for seconds in warm), "rounds": len(warm)}
+    return _row(case, method, chosen, note) | told
 
 
-def _row(case: str, method: Method, chosen: Resolution, **told: Any) -> Row:
-    named = {"case": case, "method": method.name, "resolution": in_words(chosen)}
-    return dict.fromkeys(COLUMNS, "") | {"seconds": nan, "error": nan} | named | told
+def _row(case: str, method: Method, chosen: Resolution, note: str) -> Row:
+    named = {"case": case, "method": method.name, "resolution": in_words(chosen), "note": note}
+    return dict.fromkeys(COLUMNS, "") | {"seconds": nan, "error": nan} | named
 
 
 def in_words(chosen: Resolution) -> str:
@@ -249,7 +248,9 @@ def page(problem: Problem, rows: Sequence[Row]) -> str:
         parts += [f"![Error against seconds]({problem.file}.png)"] * (not problem.base)
         parts += ["## Milliseconds at equal error", equal_error(problem, rows)]
     parts += ["## All measurements", "Seconds are processor time on one thread, medians of warm rounds; *cold* is the"]
-    parts[-1] += " first one, which compiles forms and fills caches. Imports do not count, but where processes are timed."
+    parts[-1] += (
+        " first one, which compiles forms and fills caches. Imports do not count, but where processes are timed."
+    )
     measured = [f"- {processor()}, {platform.system()}, Python {platform.python_version()}; {date.today().isoformat()}"]
     busy = os.getloadavg()[0]
     measured += [f"- other work kept the machine busy: a load of {busy:.0f}"] * (busy > 1.5 * (os.cpu_count() or 1))
@@ -263,7 +264,7 @@ def _peers(problem: Problem) -> list[str]:
 
 def _version(package: str) -> str:
     with contextlib.suppress(PackageNotFoundError, PeerError):
-        folder = "" if package in _OWN_PACKAGES else peer_folder(package, install=False, report=str)
+        folder = "" if package in _OWN_PACKAGES else peer_folder(package, install=False, report=print)
         found = importlib.metadata.distributions(name=package, path=[folder]) if folder else ()
         return next((one.version for one in found), None) or version(package)
     return "not installed"

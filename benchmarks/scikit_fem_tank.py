@@ -27,8 +27,16 @@ import scipy.sparse.linalg
 import skfem
 from skfem.element import ElementLinePp, ElementQuadP
 
-from hydroelastic.benchmarks.tank_top import MODES, RING_RATIO, Array, Resolution, Tank, dry_shapes
-from hydroelastic.benchmarks.tank_top import frequencies, resolution
+from hydroelastic.benchmarks.tank_top import (
+    MODES,
+    RING_RATIO,
+    Array,
+    Resolution,
+    Tank,
+    dry_shapes,
+    frequencies,
+    resolution,
+)
 
 _GROWTH = 1.5
 # Vertices between which the four edges of ElementQuadP run.
@@ -132,7 +140,8 @@ def _surface(given: Tank, mesh: Any, space: Any, asked: Resolution) -> tuple[Arr
     values = dry_shapes(asked.shapes, np.clip(along, 0.0, 1.0))
     loads = np.zeros((size, asked.shapes))
     np.add.at(loads, dofs[under], np.matmul(basis * weights, values.transpose(1, 2, 0)) * lengths[under][:, None, None])
-    return top, scipy.sparse.coo_matrix((mass.ravel(), (rows, columns)), shape=(size, size)).tocsr(), np.unique(wet), loads
+    whole = scipy.sparse.coo_matrix((mass.ravel(), (rows, columns)), shape=(size, size)).tocsr()
+    return top, whole, np.unique(wet), loads
 
 
 def _graded_quads(length: float, depth: float, beam: tuple[float, float], asked: Resolution) -> tuple[Array, Array]:

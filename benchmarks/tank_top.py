@@ -131,9 +131,13 @@ def frequencies(
     return 1.0 / np.sqrt(_largest(condensed, weigh, noise, MODES // 2 + 2 if half else MODES))
 
 
-def _largest(apply: Callable[[Array, Array], Array], weigh: Callable[[Array], Array], start: Array, count: int) -> Array:
+def _largest(
+    apply: Callable[[Array, Array], Array], weigh: Callable[[Array], Array], start: Array, count: int
+) -> Array:
     """Return the largest eigenvalues of K⁻¹M by the Lanczos method in the metric of K, orthogonalized in full."""
-    basis, weighed, diagonal, beside = np.empty((400, len(start))), np.empty((400, len(start))), [], []
+    basis, weighed = np.empty((2, 400, len(start)))
+    diagonal: list[float] = []
+    beside: list[float] = []
     image = apply(start, weigh(start))
     for step in range(400):
         of_image = weigh(image)
@@ -141,8 +145,9 @@ def _largest(apply: Callable[[Array, Array], Array], weigh: Callable[[Array], Ar
         if step > count + 6 and step % 3 == 0:
             values, vectors = eigh_tridiagonal(diagonal, beside)
             # Residual²/gap, the error of each; two more have to be near, or else one may not have appeared yet.
-            gaps = np.minimum(*(np.abs(np.diff(values[::-1], append=0.0, prepend=np.inf)[k:][: count + 2]) for k in (0, 1)))
-            errors = (norm * vectors[-1, ::-1][: count + 2]) ** 2 / (gaps * values[::-1][: count + 2])
+            gaps = np.abs(np.diff(values[::-1], append=0.0, prepend=np.inf))
+            nearest = np.minimum(gaps[:-1], gaps[1:]) * values[::-1]
+            errors = ((norm * vectors[-1, ::-1]) ** 2 / nearest)[: count + 2]
             if (errors[:count] < 1e-11).all() and (errors[count:] < 1e-3).all():
                 return values[::-1][:count]
         if step:

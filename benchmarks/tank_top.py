@@ -112,7 +112,7 @@ def frequencies(
     follows = half != "odd" and len(free) > 0
     keeps = half != "odd" and not follows
     found = [respond(unit, np.zeros(len(volume))) for unit in np.eye(shapes, len(volume))[free]]
-    corner = np.array([momentum for momentum, _ in found]).reshape(len(free), len(free))
+    corner: Array = np.array([momentum for momentum, _ in found]).reshape(len(free), len(free))
     responses = np.array([response for _, response in found] + [yielding] * follows)
     if follows:
         corner = np.block([[corner, volume[free, None]], [volume[free], 0.0]])

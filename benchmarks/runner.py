@@ -247,7 +247,7 @@ def page(problem: Problem, rows: Sequence[Row]) -> str:
     if problem.cases.keys() - {"processes"}:
         parts += [f"![Error against seconds]({problem.file}.png)"] * (not problem.base)
         parts += ["## Milliseconds at equal error", equal_error(problem, rows)]
-    parts += ["## All measurements", "Seconds are processor time on one thread, medians of warm rounds; *cold* is the"]
+    parts += ["## All measurements", "Times are processor time on one thread, medians of warm rounds; *cold* is the"]
     parts[-1] += (
         " first one, which compiles forms and fills caches. Imports do not count, but where processes are timed."
     )
@@ -287,7 +287,7 @@ def figure(problem: Problem, rows: Sequence[Row], path: Path) -> None:
     columns = min(3, len(cases))
     lines = -(-len(cases) // columns)
     drawn = Figure(figsize=(4.2 * columns, 3.6 * lines + 0.8), layout="constrained")
-    panels = drawn.subplots(lines, columns, squeeze=False).ravel()
+    panels = drawn.subplots(lines, columns, sharex=True, sharey=True, squeeze=False).ravel()
     for panel, case in zip(panels, cases, strict=False):
         for number, name in enumerate(names):
             mine = [row for row in rows if (row["case"], row["method"]) == (case, name) and row["error"] >= 0.0]
@@ -296,6 +296,8 @@ def figure(problem: Problem, rows: Sequence[Row], path: Path) -> None:
             best = [point for place, point in enumerate(points) if all(point[1] < one[1] for one in points[:place])]
             panel.loglog(*np.array(best).reshape(-1, 2).T, f"C{number}-", linewidth=1.0)
         panel.set(title=case, xlabel="processor time, s", ylabel="error")
+        panel.xaxis.set_minor_formatter("")
+        panel.tick_params(labelbottom=True, labelleft=True)
         panel.grid(alpha=0.3)
     for panel in panels[len(cases) :]:
         panel.set_axis_off()

@@ -259,7 +259,7 @@ largest displacement. Both methods get a tolerance and give an error for each va
         "threads",
         """Lines at rest, and a jumper whose top is moved by 10 m in 27 s. *Error*, at rest: the larger one of the
 errors of the forces on both ends, over the larger force; in motion: the largest error of the top tension in the third
-period, over the largest tension. All codes get the same weight, stiffness, drag and added mass, and no bending stiffness.
+period, over the largest tension. All codes get the same weight, stiffness, drag and added mass, no bending stiffness.
 
 - **hydroelastic** gets a tolerance, chooses meshes and steps, and gives error estimates, in motion by several runs.
 - **MoorPy**: its function `catenary`, whose tolerance is a displacement in metres; in a uniform stream, catenaries in a

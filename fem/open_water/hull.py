@@ -8,22 +8,23 @@ from dataclasses import dataclass
 import numpy as np
 from mpi4py import MPI
 from numpy.polynomial.legendre import leggauss, legvander
+from scipy.spatial import cKDTree
 
+from hydroelastic.fem.cells import nearest_in_cells
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD
-from hydroelastic.fem.open_water.results import Floats, HullPressure
+from hydroelastic.fem.open_water.results import HullPressure
 from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.tank.error_estimates import boundary_error
 from hydroelastic.fem.tank.resolution import rounding_error
+from hydroelastic.physics.contours import points_along
 
-# Points of each facet at which pressures are told.
-_ALONG = np.array([[0.0], [0.5]])
-# Points of a facet from which the nearest one to a given point is sought, and steps of Newton's method.
-_NEAR, _STEPS = np.linspace(0.0, 1.0, 9)[:, None], 8
+# Points of a facet by which the cells nearest to a given point are chosen, and how many of them.
+_NEAR, _CANDIDATES = np.linspace(0.0, 1.0, 9)[:, None], 3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +43,6 @@ def hull_pressure(
     reduced: np.ndarray,
     index: int,
     towards: int = RIGHTWARD,
-    points: Floats | None = None,
 ) -> HullPressure:
     """Return the pressure ρω²Ψ along the hull of a float from the left to the right (collective).
 
@@ -54,11 +54,10 @@ def hull_pressure(
     model = responses[0].model
     units, comm = model.basin.units, model.pencil.comm
     weight, origin = units.density * units.gravity, np.array([model.basin.origin, 0.0])
-    if points is None:
-        scaled, places = _of_mesh(model, index)
-        points = units.length * scaled + origin
-    else:
-        places = _nearest(model, index, (points - origin) / units.length)
+    hull = model.basin.tank.hulls[index]
+    arcs = (*hull.below, *hull.above)
+    scaled = np.vstack([points_along(arcs), [arcs[-1].end]])
+    points, places = units.length * scaled + origin, _nearest(model, index, scaled)
     values = np.zeros((len(responses), len(responses[0].incident), len(points)), dtype=complex)
     rough = np.zeros(values.shape[:2])
     for row, response in enumerate(responses):
@@ -97,50 +96,18 @@ def _groups(model: OpenModel, index: int) -> Iterator[FacetGroup]:
     return facet_groups(model.pencil.liquid, model.pencil.bodies[index].surface)
 
 
-def _of_mesh(model: OpenModel, index: int) -> tuple[np.ndarray, _Places]:
-    """Points of all facets around the hull from its left contact point, below (collective)."""
-    cells: list[np.ndarray] = [np.zeros(0, dtype=int)]
-    reference, own = [np.zeros((0, 2))], [np.zeros((0, 2))]
-    for group in _groups(model, index):
-        at = group.reference_points(_ALONG)
-        own.append(group.physical_points(at).reshape(-1, 2))
-        cells.append(np.repeat(group.cells, len(at)))
-        reference.append(np.tile(at, (len(group.cells), 1)))
-    comm = model.pencil.comm
-    gathered = comm.allgather(np.concatenate(own))
-    points = np.concatenate(gathered)
-    hull = model.basin.tank.hulls[index]
-    order = np.argsort(np.arctan2(points[:, 1] - hull.height - 1e-12, points[:, 0] - hull.middle))
-    first = sum(map(len, gathered[: comm.rank]))
-    numbers = np.argsort(order)[first : first + len(gathered[comm.rank])]
-    return points[order], _Places(
-        numbers=numbers,
-        points=gathered[comm.rank],
-        cells=np.concatenate(cells),
-        reference=np.concatenate(reference),
-    )
-
-
 def _nearest(model: OpenModel, index: int, points: np.ndarray) -> _Places:
-    """The nearest points of the facets to given points, each on one process (collective)."""
-    comm = model.pencil.comm
+    """The nearest points of the cells beside a hull to given points, each on one process (collective)."""
+    comm, mesh = model.pencil.comm, model.pencil.liquid.tank.mesh
     away, cells, reference = np.full(len(points), np.inf), np.zeros(len(points), dtype=int), np.zeros((len(points), 2))
     for group in _groups(model, index):
-        start, along = group.reference_corners[0], group.reference_corners[1] - group.reference_corners[0]
-        near = group.physical_points(group.reference_points(_NEAR))
-        for number, point in enumerate(points):
-            facet, place = np.unravel_index(np.linalg.norm(near - point, axis=2).argmin(), near.shape[:2])
-            own, t = group.subset(np.array([facet])), float(_NEAR[place, 0])
-            for _ in range(_STEPS):
-                at = (start + t * along)[None]
-                tangent, apart = own.jacobians(at)[0, 0] @ along, own.physical_points(at)[0, 0] - point
-                t = min(max(t - float(tangent @ apart / (tangent @ tangent)), 0.0), 1.0)
-            at = (start + t * along)[None]
-            distance = float(np.linalg.norm(own.physical_points(at)[0, 0] - point))
-            if distance < away[number]:
-                away[number], cells[number], reference[number] = distance, own.cells[0], at[0]
-    ranks = np.argmin(comm.allgather(away), axis=0)
-    numbers = np.flatnonzero(ranks == comm.rank)
+        near = group.physical_points(group.reference_points(_NEAR)).reshape(-1, 2)
+        for candidates in cKDTree(near).query(points, min(_CANDIDATES, len(near)))[1].T:
+            own = group.cells[candidates // len(_NEAR)]
+            at, distance = nearest_in_cells(mesh, own, points)
+            nearer = distance < away
+            away[nearer], cells[nearer], reference[nearer] = distance[nearer], own[nearer], at[nearer]
+    numbers = np.flatnonzero(np.argmin(comm.allgather(away), axis=0) == comm.rank)
     return _Places(numbers=numbers, points=points[numbers], cells=cells[numbers], reference=reference[numbers])
 
 

@@ -76,17 +76,15 @@ def open_model(
 ) -> OpenModel:
     """Mesh and assemble open water (collective)."""
     basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
-    tank, watch = basin.tank, problem.watch
-    with watch.stage("mesh"):
-        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
+    tank = basin.tank
+    mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
-    with watch.stage("assemble"):
-        pencil = build_open_pencil(
-            liquid,
-            scaling_of(basin, absorbing_layer),
-            bodies=whole_bodies(tank, resolution.shapes),
-            surfaces=moving_surfaces(mesh, tank),
-        )
+    pencil = build_open_pencil(
+        liquid,
+        scaling_of(basin, absorbing_layer),
+        bodies=whole_bodies(tank, resolution.shapes),
+        surfaces=moving_surfaces(mesh, tank),
+    )
     return OpenModel(
         basin=basin,
         resolution=resolution,

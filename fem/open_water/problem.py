@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
 
 if TYPE_CHECKING:
@@ -27,7 +26,6 @@ class OpenWaterProblem:
         comm: MPI communicator.
         tank: open water in SI units, with at least one body.
         tolerance: largest relative error that is accepted.
-        watch: records the time by stage.
         bands: lowest and highest frequency of each analysis, rad/s.
         solvers: the last solver of each azimuthal order, of sections order 0, with what it was made for: several
             analyses of the same frequencies share it.
@@ -36,7 +34,6 @@ class OpenWaterProblem:
     comm: MPI.Comm
     tank: Tank
     tolerance: float
-    watch: Stopwatch
     bands: tuple[tuple[float, float], ...] = ()
     solvers: dict[int, Any] = field(default_factory=dict, compare=False, repr=False)
 

@@ -96,15 +96,14 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
             difference=_difference,
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            causes = [_causes(swept.solutions[place]) for place in places]
-            unmeshed = unmeshed_error(solver.model)
-            # The error of the basis is relative to the largest entry.
-            flux_errors = [
-                solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
-                for solution, error in zip(swept.solutions, swept.errors, strict=True)
-            ]
+        places = estimated_places(omegas)
+        causes = [_causes(swept.solutions[place]) for place in places]
+        unmeshed = unmeshed_error(solver.model)
+        # The error of the basis is relative to the largest entry.
+        flux_errors = [
+            solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
+            for solution, error in zip(swept.solutions, swept.errors, strict=True)
+        ]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(

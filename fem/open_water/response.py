@@ -20,7 +20,7 @@ from hydroelastic.fem.open_water.radiation import between, estimated_places, rel
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.response_errors import load_errors, response_errors
 from hydroelastic.fem.open_water.response_table import ResponseErrors, response_table
-from hydroelastic.fem.open_water.results import HullPressure, Largest, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import Largest, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -59,9 +59,7 @@ class _Sweep:
     wave_errors: np.ndarray
 
 
-def solve_response(
-    problem: OpenWaterProblem, request: ResponseRequest, like: tuple[HullPressure, ...] = ()
-) -> ResponseSolution:
+def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
     """Solve for the motion in waves to the tolerance of the problem (collective)."""
     omegas = np.array(request.omega)
     low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
@@ -77,20 +75,19 @@ def solve_response(
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            estimated = [swept.solutions[place] for place in places]
-            causes = [response_errors(solution) for solution in estimated]
-            of_loads = {
-                index: between(omegas, places, values) for index, values in load_errors(solver.model, estimated).items()
-            }
-            errors = ResponseErrors(
-                total=between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors,
-                reduced=swept.errors,
-                drift=drift_errors(swept.solutions, omegas, places, swept.errors),
-                of_loads=of_loads,
-            )
-            of_waves = wave_errors(swept.solutions, omegas, places, swept.errors)
+        places = estimated_places(omegas)
+        estimated = [swept.solutions[place] for place in places]
+        causes = [response_errors(solution) for solution in estimated]
+        of_loads = {
+            index: between(omegas, places, values) for index, values in load_errors(solver.model, estimated).items()
+        }
+        errors = ResponseErrors(
+            total=between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors,
+            reduced=swept.errors,
+            drift=drift_errors(swept.solutions, omegas, places, swept.errors),
+            of_loads=of_loads,
+        )
+        of_waves = wave_errors(swept.solutions, omegas, places, swept.errors)
         joined = joined_errors(causes, float(swept.errors.max()))
         table = response_table(request, solver.model, omegas, swept.solutions, errors)
         weight = solver.model.basin.units.density * solver.model.basin.units.gravity
@@ -108,7 +105,7 @@ def solve_response(
     model = found.solver.model
     table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors, like))
+        table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors))
     meshed = table.relative_error - found.swept.errors
     curves = None
     if len(omegas) > FEW:
@@ -195,19 +192,15 @@ def _of_basis(
     return response_table(request, model, omegas, responses, errors, with_plates=False)
 
 
-def _on_hulls(
-    request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray, like: tuple[HullPressure, ...]
-) -> dict[str, Any]:
+def _on_hulls(request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray) -> dict[str, Any]:
     """Pressures along hulls, and of sections in one liquid the drift force by the field beside the bodies,
     with the relative errors by the reduced basis (collective)."""
     from hydroelastic.fem.open_water.hull import hull_pressure
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
-    towards, points = direction_of(request.waves_from), {one.body: one.points for one in like}
-    found: dict[str, Any] = {
-        "hulls": tuple(hull_pressure(solutions, reduced, index, towards, points.get(index)) for index in hulls)
-    }
+    towards = direction_of(request.waves_from)
+    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, reduced, index, towards) for index in hulls)}
     if len(tank.layers) == 1 and not tank.geometry.is_revolved:
         forces = [
             np.array([one.near_field_drift(place) for place in range(len(one.incident))])

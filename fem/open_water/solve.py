@@ -38,7 +38,7 @@ from hydroelastic.fem.open_water.results import (
     ResponseTable,
 )
 from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 
 # Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
@@ -74,7 +74,6 @@ class OpenWaterSolution:
         impulse_response: one for each impulse response analysis.
         motion: one for each motion analysis.
         size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
-        seconds: time by stage.
         reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
     """
 
@@ -86,7 +85,6 @@ class OpenWaterSolution:
     impulse_response: tuple[ImpulseResponseTable, ...] = ()
     motion: tuple[MotionTable, ...] = ()
     size: dict[str, int]
-    seconds: dict[str, float]
     reasons: tuple[str, ...] = ()
 
     @property
@@ -136,7 +134,6 @@ def solve_open_water(
         impulse_response=tuple(one for one in tables if isinstance(one, ImpulseResponseTable)),
         motion=tuple(one for one in tables if isinstance(one, MotionTable)),
         size=size,
-        seconds=dict(problem.watch.seconds),
         reasons=tuple(reasons),
     )
 

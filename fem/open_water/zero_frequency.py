@@ -42,13 +42,11 @@ def zero_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         model = open_model(problem, band, replace(resolution, shapes=shapes))
         loads = model.pencil.loads.astype(complex)
-        with problem.watch.stage("solve"):
-            solver = model.pencil.solver()
-            solver.shift(0.0)
-            radiated = np.array([solver.solve(load) for load in loads]).reshape(loads.shape)
+        solver = model.pencil.solver()
+        solver.shift(0.0)
+        radiated = np.array([solver.solve(load) for load in loads]).reshape(loads.shape)
         matrix = model.pencil.products(loads, radiated)
-        with problem.watch.stage("errors"):
-            causes = model.errors(radiated, np.abs(np.diag(matrix)))
+        causes = model.errors(radiated, np.abs(np.diag(matrix)))
         masses = np.where(np.outer(grows, grows), np.inf, model.scale.masses(matrix).real)
         return Attempt(result=masses, causes=causes, resolution=resolution)
 

@@ -88,7 +88,6 @@ class FieldResponse:
         tolerance: asked, m.
         problem: why the tolerance is not reached everywhere; empty if it is.
         sizes: size of the last discretisation.
-        seconds: time by stage.
     """
 
     values: NDArray[np.float64]
@@ -97,7 +96,6 @@ class FieldResponse:
     tolerance: float
     problem: str
     sizes: FieldSizes
-    seconds: dict[str, float]
 
     @property
     def converged(self) -> bool:
@@ -146,7 +144,6 @@ def field_response(
             half_width=checked.resolution.half_width,
             motions_computed=runs.motions_computed,
         ),
-        seconds=runs.seconds,
     )
 
 

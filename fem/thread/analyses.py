@@ -24,7 +24,6 @@ class ThreadAnalyses:
         stability: of each analysis of stability.
         motions: of each analysis of motion.
         size: cells, degree and unknowns of the equilibrium, steps of motions.
-        seconds: time by stage.
     """
 
     thread: Thread
@@ -34,4 +33,3 @@ class ThreadAnalyses:
     stability: tuple[Stability, ...]
     motions: tuple[MotionInSpace, ...]
     size: dict[str, int]
-    seconds: dict[str, float]

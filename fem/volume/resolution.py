@@ -9,8 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
-from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
-from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
+from hydroelastic.fem.plan.polynomials import (
+    more_polynomials,
+    plate_wavenumbers,
+    polynomial_counts,
+    water_wavenumber,
+)
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
 from hydroelastic.meshes.edge_layers import LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors, image_count
@@ -277,7 +281,7 @@ def _of_degree(
 ) -> VolumeResolution:
     kind = min(degree, 4)
     eigenvalue = expected_eigenvalue(tank, count)
-    wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
+    wavenumbers = plate_wavenumbers(tank, eigenvalue)
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     shortest = max(water_wavenumber(tank, eigenvalue), *wavenumbers, radians / _LARGEST)
     bulk = min(radians / shortest, 2.0 * tank.depth)

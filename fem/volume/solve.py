@@ -28,9 +28,9 @@ from hydroelastic.fem.plan.classes import (
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.truncation import plate_errors
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import TooLargeError
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.eigenmodes import volume_modes
@@ -77,7 +77,6 @@ class VolumeSolution:
         errors: of their frequencies.
         counted: whether the number of modes is confirmed.
         count_method: by what: the inertia of a coarser model, or a second start.
-        attempts: number of resolutions that were solved.
         iterations: mean number of iterations of Laplace's equation; 0 of a direct solver.
     """
 
@@ -86,7 +85,6 @@ class VolumeSolution:
     errors: VolumeErrors
     counted: bool
     count_method: str
-    attempts: int
     iterations: float
 
     @property
@@ -197,7 +195,6 @@ def solve_volume(
             ),
             counted=counted,
             count_method=BY_INERTIA if by_inertia else "residuals, and a second start vector",
-            attempts=attempt,
             iterations=_mean_iterations([one.pencil.solver for one in modes.classes]),
         )
 

@@ -20,7 +20,7 @@ from scipy.linalg import eigh, qr, solve_triangular
 
 from hydroelastic.modal.plate.corner_functions import CornerFunction, corner_functions
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
-from hydroelastic.modal.plate.rectangle import AxisParity
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.plate import Point, Polygon
 
 # r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
@@ -71,7 +71,7 @@ class PolygonBasis:
     middle: NDArray[np.float64]
     half: NDArray[np.float64]
     degree: int
-    parity: tuple[AxisParity, AxisParity]
+    parity: ClassParity
     corners: tuple[CornerFunction, ...]
 
     @property
@@ -138,7 +138,7 @@ class PolygonBasis:
 
 @lru_cache(maxsize=64)
 def polygon_modes(
-    points: tuple[Point, ...], poisson_ratio: float, degree: int, parity: tuple[AxisParity, AxisParity] = (None, None)
+    points: tuple[Point, ...], poisson_ratio: float, degree: int, parity: ClassParity = (None, None)
 ) -> PolygonModes:
     """Return all Ritz modes of a free plate of one symmetry.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
-from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +65,6 @@ class StringSolution:
         front_margin: part of R from a wave front within which displacements are not judged by the tolerance: a jump has
             no value, and a series or a field solution only a blurred one.
         size: terms of a series; cells, degree, dofs and steps of a field solution.
-        seconds: time by stage.
     """
 
     string: HangingString
@@ -78,7 +76,6 @@ class StringSolution:
     tolerance: float
     front_margin: float
     size: dict[str, int]
-    seconds: dict[str, float]
 
     @cached_property
     def beside_fronts(self) -> NDArray[np.bool_]:
@@ -134,10 +131,8 @@ def series_solution(
         tolerance: asked error of the displacement, relative to the largest one.
         modes: number of free motions.
     """
-    started = perf_counter()
     aim = max(_SHARE * tolerance, _LEAST_TOLERANCE)
     response = string_response(string, motion, positions, times, tolerance=aim)
-    summed = perf_counter()
     free_motions = series_free_motions(string, modes, positions)
     return StringSolution(
         string=string,
@@ -149,7 +144,6 @@ def series_solution(
         tolerance=tolerance,
         front_margin=SERIES_FRONT_MARGIN,
         size={"terms": response.terms},
-        seconds={"solve": summed - started, "modes": perf_counter() - summed},
     )
 
 

@@ -145,24 +145,18 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
 
 
 def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
-    from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
-    from hydroelastic.fem.plan.box_resolution import box_resolution
+    from hydroelastic.fem.level_bed.choice import MODEL_WORDS
     from hydroelastic.fem.plan.plan import plan_resolution
 
-    model = level_model(tank)
-    words = MODEL_WORDS[model]
+    words = MODEL_WORDS["plan"]
     yield f"{words[0].upper()}{words[1:]}; no volume mesh."
-    highest = expected_eigenvalue(tank, modes)
-    resolution = (box_resolution if model == "box" else plan_resolution)(tank, tolerance, highest)
+    resolution = plan_resolution(tank, tolerance, expected_eigenvalue(tank, modes))
     layers = f"{resolution.layers} layers on each side of an edge"
     polynomials = " + ".join(map(str, resolution.polynomials))
     shapes = f", {polynomials} polynomials along each direction of the plates" if polynomials else ""
     yield f"First attempt: degree {resolution.degree}, {layers}{shapes}."
-    if model == "box":
-        yield "  Plates in the middle of both sides leave four problems of a quarter of the tank, of one side two."
-        yield "  The added mass in a finer space shows the error of each mode."
-    else:
-        yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."
+    yield "  Walls and plates with a plane of symmetry leave two problems of a half of the tank, with two planes four."
+    yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."
 
 
 def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:

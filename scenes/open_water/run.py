@@ -10,8 +10,8 @@ from mpi4py import MPI
 
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.files import write_open_csv
 from hydroelastic.output.open_water.quantities import OPEN_WATER
@@ -51,7 +51,7 @@ class SampledWater:
 
 def _sample(solution: OpenSolution, _summary: Reading) -> SampledWater:
     sampled, missing = [], []
-    problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
+    problem = open_water_problem(solution.scene, MPI.COMM_WORLD)
     plans = _plans(problem, solution) if solution.scene.is_revolved else ()
     for name, fields in () if solution.scene.is_revolved else open_fields(problem, solution):
         try:

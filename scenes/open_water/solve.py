@@ -6,8 +6,8 @@ from mpi4py import MPI
 
 from hydroelastic.fem.open_water.decay import DriftingFloatError, UnstableFloatError
 from hydroelastic.fem.open_water.solve import solve_open_water
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.time_domain.motion import UnsolvedMotionError
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, cannot_be_meshed
@@ -20,7 +20,7 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
     """Solve all analyses of a scene with open ends (collective)."""
     requests = tuple(analysis.request for analysis in scene.analyses)
     try:
-        solved = solve_open_water(open_water_problem(scene, comm, Stopwatch()), requests, report)
+        solved = solve_open_water(open_water_problem(scene, comm), requests, report)
     except MeshError as error:
         raise cannot_be_meshed(error) from error
     except EigenSolverError as error:

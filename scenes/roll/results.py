@@ -21,13 +21,11 @@ class RollResult:
         scene: the scene.
         solution: the motion; the error of its ship is that of the section.
         section: roll of the section by its field solution; ``None`` without one.
-        seconds: time by stage.
     """
 
     scene: RollScene
     solution: RollSolution
     section: SectionRoll | None
-    seconds: dict[str, float]
 
     @property
     def levels(self) -> tuple[float, ...]:

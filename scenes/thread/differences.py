@@ -26,7 +26,7 @@ _LEFT_OUT = 2.0
 _ROUNDING = 1e-12
 
 
-def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found]) -> Summary:
+def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found], seconds: float) -> Summary:
     """Return the difference of each estimate from the field solution, JSON-ready.
 
     A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
@@ -37,7 +37,7 @@ def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Foun
         "field": {
             "position_error": rest.position_error,
             "tension_error": rest.tension_error,
-            "seconds": sum(solution.seconds.values()),
+            "seconds": seconds,
         },
         "shapes": [_shape(solution, found) for found in estimates if isinstance(found, ShapeEstimate)],
         "values": [_values(solution, found) for found in estimates if isinstance(found, ValueEstimate)],

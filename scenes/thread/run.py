@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.output.thread.tables import thread_cost, thread_sections

@@ -168,8 +168,7 @@ def _line(given: Given, tolerance: float, *analyses: Given) -> Any:
 
 
 def _modes(result: Any) -> Numbers:
-    stages = ", ".join(f"{name} {1e3 * seconds:.1f}" for name, seconds in result.summary["timing"].items() if seconds)
-    note = f"estimate {result.modes.relative_error.max():.1e}; ms by the clock: {stages}"
+    note = f"estimate {result.modes.relative_error.max():.1e}"
     return lambda: (result.modes.omega, result.summary["size"]["dofs"], note)
 
 

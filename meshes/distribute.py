@@ -20,23 +20,14 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 @dataclass(frozen=True, kw_only=True)
 class TankMesh:
-    """A distributed mesh of simplices with named groups of cells and facets.
+    """A distributed mesh of simplices with named groups of cells and facets."""
 
-    Attributes:
-        mesh: the dolfinx mesh.
-        facet_tags: tags of the facets on named curves.
-        facet_names: physical name → tag, of facets.
-        cell_tags: tags of this process's own cells.
-        cell_names: physical name → tag, of cells.
-        deviation: of the edges from the curves meshed, in units of length; zero where that is not known.
-    """
-
-    mesh: Mesh
-    facet_tags: MeshTags
-    facet_names: dict[str, int]
-    cell_tags: MeshTags
-    cell_names: dict[str, int]
-    deviation: float = 0.0
+    mesh: Mesh  # the dolfinx mesh
+    facet_tags: MeshTags  # tags of the facets on named curves
+    facet_names: dict[str, int]  # physical name → tag, of facets
+    cell_tags: MeshTags  # tags of this process's own cells
+    cell_names: dict[str, int]  # physical name → tag, of cells
+    deviation: float = 0.0  # of the edges from the curves meshed, in units of length; zero where that is not known
 
     def facets(self, name: str) -> np.ndarray:
         """This process's facets of one group."""
@@ -54,32 +45,20 @@ class TankMesh:
 
 @dataclass(frozen=True, kw_only=True)
 class NodedMesh:
-    """A mesh of simplices of one degree in plain arrays, with its nodes in the order of dolfinx.
+    """A mesh of simplices of one degree in plain arrays, with its nodes in the order of dolfinx."""
 
-    Attributes:
-        cell: "triangle" or "tetrahedron".
-        degree: of the geometry.
-        points: nodes, m or dimensionless, shape (nodes, dim).
-        cells: numbers of each cell's nodes in the order of ``basix.ufl.element("Lagrange", cell, degree)``, the corners
-            first, shape (cells, nodes per cell).
-        cell_tags: group of each cell, shape (cells,).
-        facets: numbers of the corners of the tagged facets, shape (facets, dim).
-        facet_tags: group of each of them, shape (facets,).
-        cell_names: physical name → tag, of cells.
-        facet_names: physical name → tag, of facets.
-        deviation: see `TankMesh`.
-    """
-
-    cell: str
-    degree: int
-    points: NDArray[np.float64]
+    cell: str  # "triangle" or "tetrahedron"
+    degree: int  # of the geometry
+    points: NDArray[np.float64]  # nodes, m or dimensionless, shape (nodes, dim)
+    # numbers of each cell's nodes in the order of ``basix.ufl.element("Lagrange", cell, degree)``, the corners first,
+    # shape (cells, nodes per cell)
     cells: NDArray[np.int64]
-    cell_tags: NDArray[np.int32]
-    facets: NDArray[np.int64]
-    facet_tags: NDArray[np.int32]
-    cell_names: dict[str, int]
-    facet_names: dict[str, int]
-    deviation: float = 0.0
+    cell_tags: NDArray[np.int32]  # group of each cell, shape (cells,)
+    facets: NDArray[np.int64]  # numbers of the corners of the tagged facets, shape (facets, dim)
+    facet_tags: NDArray[np.int32]  # group of each of them, shape (facets,)
+    cell_names: dict[str, int]  # physical name → tag, of cells
+    facet_names: dict[str, int]  # physical name → tag, of facets
+    deviation: float = 0.0  # see `TankMesh`
 
 
 def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:

@@ -20,20 +20,13 @@ class Sources:
         h_i(z) = size_i + growth · max(|z − segment i| − radius_i, 0)
 
     Lengths are in the unit of the mesh, points (x, y) are complex numbers x + iy.
-
-    Attributes:
-        starts: first points of the segments, shape (n,).
-        ends: last points, shape (n,); the same for a single point.
-        radii: shape (n,).
-        sizes: shape (n,).
-        growth: increase of the size per unit of distance.
     """
 
-    starts: NDArray[np.complex128]
-    ends: NDArray[np.complex128]
-    radii: NDArray[np.float64]
-    sizes: NDArray[np.float64]
-    growth: float
+    starts: NDArray[np.complex128]  # first points of the segments, shape (n,)
+    ends: NDArray[np.complex128]  # last points, shape (n,); the same for a single point
+    radii: NDArray[np.float64]  # shape (n,)
+    sizes: NDArray[np.float64]  # shape (n,)
+    growth: float  # increase of the size per unit of distance
 
     def least(self, points: NDArray[np.complex128], most: float) -> NDArray[np.float64]:
         """The least size at points, or ``most`` where all sizes are greater, both of shape (points,)."""

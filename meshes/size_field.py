@@ -16,17 +16,11 @@ _FEW = 16
 
 @dataclass(frozen=True, kw_only=True)
 class Discs:
-    """Round sources: within a disc elements have its size.
+    """Round sources: within a disc elements have its size."""
 
-    Attributes:
-        centres: centres (x, y) in the unit of the outline, shape (n, 2).
-        radii: radii in the unit of the outline, shape (n,).
-        sizes: sizes of elements in the unit of the outline, shape (n,).
-    """
-
-    centres: NDArray[np.float64]
-    radii: NDArray[np.float64]
-    sizes: NDArray[np.float64]
+    centres: NDArray[np.float64]  # centres (x, y) in the unit of the outline, shape (n, 2)
+    radii: NDArray[np.float64]  # radii in the unit of the outline, shape (n,)
+    sizes: NDArray[np.float64]  # sizes of elements in the unit of the outline, shape (n,)
 
 
 class SizeField:

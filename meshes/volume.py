@@ -68,23 +68,16 @@ _FEWEST_AROUND = 12
 
 @dataclass(frozen=True, kw_only=True)
 class VolumeSizes:
-    """Sizes of cells, in units of the tank.
+    """Sizes of cells, in units of the tank."""
 
-    Attributes:
-        edge: at the edges of plates.
-        bulk: elsewhere.
-        geometry: degree of the geometry of curved cells.
-        around: least number of cells around a curved wall.
-        refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
-            sizes then; see `meshes.refinement`.
-        layers: how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`.
-    """
-
-    edge: float
-    bulk: float
-    geometry: int
-    around: int = 16
+    edge: float  # at the edges of plates
+    bulk: float  # elsewhere
+    geometry: int  # degree of the geometry of curved cells
+    around: int = 16  # least number of cells around a curved wall
+    # how often straight cells of gmsh are to be divided into eight on all processes, which have these sizes then; see
+    # `meshes.refinement`
     refinements: int = 0
+    # how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`
     layers: int = 0
 
     @property
@@ -140,17 +133,11 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
 
 @dataclass(frozen=True, kw_only=True)
 class _Parts:
-    """The parts of a model of gmsh.
+    """The parts of a model of gmsh."""
 
-    Attributes:
-        layers: name of the liquid of each volume.
-        faces: name of each face of the liquids, "" of walls.
-        volume: of the liquids.
-    """
-
-    layers: dict[int, str]
-    faces: dict[int, str]
-    volume: float
+    layers: dict[int, str]  # name of the liquid of each volume
+    faces: dict[int, str]  # name of each face of the liquids, "" of walls
+    volume: float  # of the liquids
 
 
 def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:

@@ -19,21 +19,13 @@ class NoEstimateError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """One estimate of the first elastic tone.
+    """One estimate of the first elastic tone."""
 
-    Attributes:
-        omega: angular frequency, rad/s, or ``None`` where the method has no meaning.
-        added_mass_per_length: m_a = (EI κ⁴ + s ρ g)/ω² − m, kg/m², or ``None``.
-        note: what the method neglects, or why there is no number.
-        bound: which exact quantity lies below ``omega``.
-        mode_index: number of that quantity, from 1; ``None`` with bound "none".
-    """
-
-    omega: float | None
-    added_mass_per_length: float | None
-    note: str
-    bound: Bound
-    mode_index: int | None = None
+    omega: float | None  # angular frequency, rad/s, or ``None`` where the method has no meaning
+    added_mass_per_length: float | None  # m_a = (EI κ⁴ + s ρ g)/ω² − m, kg/m², or ``None``
+    note: str  # what the method neglects, or why there is no number
+    bound: Bound  # which exact quantity lies below ``omega``
+    mode_index: int | None = None  # number of that quantity, from 1; ``None`` with bound "none"
 
     def __post_init__(self) -> None:
         """Refuse a number that is not one, and a bound without its index."""

@@ -30,23 +30,14 @@ _STEPS = 64
 
 @dataclass(frozen=True, kw_only=True)
 class Arc:
-    """A smooth directed piece of a curve, x(t) with 0 ≤ t ≤ 1.
+    """A smooth directed piece of a curve, x(t) with 0 ≤ t ≤ 1."""
 
-    Attributes:
-        curve: t of shape (n,) to points of shape (n, 2), smooth on the whole of [0, 1] but at the knots.
-        velocity: t of shape (n,) to dx/dt of shape (n, 2).
-        start: the exact point at t = 0, shared with the arc before.
-        end: the exact point at t = 1, shared with the arc after.
-        straight: whether it is a straight segment passed at constant speed.
-        knots: values of t between 0 and 1 where higher derivatives jump, as those of splines do.
-    """
-
-    curve: Curve
-    velocity: Curve
-    start: Point
-    end: Point
-    straight: bool = False
-    knots: tuple[float, ...] = ()
+    curve: Curve  # t of shape (n,) to points of shape (n, 2), smooth on the whole of [0, 1] but at the knots
+    velocity: Curve  # t of shape (n,) to dx/dt of shape (n, 2)
+    start: Point  # the exact point at t = 0, shared with the arc before
+    end: Point  # the exact point at t = 1, shared with the arc after
+    straight: bool = False  # whether it is a straight segment passed at constant speed
+    knots: tuple[float, ...] = ()  # values of t between 0 and 1 where higher derivatives jump, as those of splines do
 
     def point(self, t: Array) -> Array:
         """Return the points at t of shape (n,), as an array of shape (n, 2); the ends are exact."""
@@ -169,17 +160,11 @@ def turn_between(before: Arc, after: Arc) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class AreaMoments:
-    """Integrals over a plane region.
+    """Integrals over a plane region."""
 
-    Attributes:
-        area: ∫dA.
-        first: ∫x dA and ∫y dA.
-        second: ∫x² dA and ∫y² dA.
-    """
-
-    area: float
-    first: Point
-    second: Point
+    area: float  # ∫dA
+    first: Point  # ∫x dA and ∫y dA
+    second: Point  # ∫x² dA and ∫y² dA
 
     @property
     def centroid(self) -> Point:
@@ -195,13 +180,9 @@ class AreaMoments:
 
 @dataclass(frozen=True)
 class Contour:
-    """A closed contour that runs counterclockwise about a body: the end of each arc is the start of the next.
+    """A closed contour that runs counterclockwise about a body: the end of each arc is the start of the next."""
 
-    Attributes:
-        arcs: the arcs in order; corners lie between arcs only.
-    """
-
-    arcs: tuple[Arc, ...]
+    arcs: tuple[Arc, ...]  # the arcs in order; corners lie between arcs only
 
     def moved(self, shift: Point) -> Contour:
         """Return the contour displaced by a vector."""

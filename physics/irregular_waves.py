@@ -36,25 +36,15 @@ _SHARE = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics:
-    """Statistics of q responses. Each is of shape (q,); units are those of the responses, and s.
+    """Statistics of q responses. Each is of shape (q,); units are those of the responses, and s."""
 
-    Attributes:
-        moments: m₀, m₁, m₂, shape (3, q).
-        significant_amplitude: mean of the highest third of the amplitudes.
-        zero_crossing_period: mean time between upward crossings of zero, s; NaN where nothing moves.
-        largest_amplitude: most probable largest amplitude in the duration.
-        sampling_error: relative error of the significant amplitude by the sampling of transfer functions.
-        truncation_error: by the waves beyond both ends of the frequencies.
-        transfer_error: by the errors of the transfer functions.
-    """
-
-    moments: Floats
-    significant_amplitude: Floats
-    zero_crossing_period: Floats
-    largest_amplitude: Floats
-    sampling_error: Floats
-    truncation_error: Floats
-    transfer_error: Floats
+    moments: Floats  # m₀, m₁, m₂, shape (3, q)
+    significant_amplitude: Floats  # mean of the highest third of the amplitudes
+    zero_crossing_period: Floats  # mean time between upward crossings of zero, s; NaN where nothing moves
+    largest_amplitude: Floats  # most probable largest amplitude in the duration
+    sampling_error: Floats  # relative error of the significant amplitude by the sampling of transfer functions
+    truncation_error: Floats  # by the waves beyond both ends of the frequencies
+    transfer_error: Floats  # by the errors of the transfer functions
 
     @property
     def relative_error(self) -> Floats:

@@ -37,17 +37,11 @@ _SPARE_POINTS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class AlongBeam:
-    """Deflection and loads along a beam in waves of a unit of c, in units of the basin. Shapes: w waves, p points.
+    """Deflection and loads along a beam in waves of a unit of c, in units of the basin. Shapes: w waves, p points."""
 
-    Attributes:
-        deflection: w upwards, shape (w, p).
-        bending_moment: EI w″, shape (w, p).
-        shear_force: (EI w″)′, shape (w, p).
-    """
-
-    deflection: np.ndarray
-    bending_moment: np.ndarray
-    shear_force: np.ndarray
+    deflection: np.ndarray  # w upwards, shape (w, p)
+    bending_moment: np.ndarray  # EI w″, shape (w, p)
+    shear_force: np.ndarray  # (EI w″)′, shape (w, p)
 
 
 class BeamLoads:

@@ -27,19 +27,12 @@ _LEAST, _PER_DIGIT, _BESIDE = 6.0, 2.5, 8
 
 @dataclass(frozen=True, kw_only=True)
 class DecayCost:
-    """The cost of the motion after a release.
-
-    Attributes:
-        unknowns: number of unknowns of ψ.
-        factorizations: number of factorizations.
-        seconds: processor time, s.
-        memory: largest memory, bytes.
-    """
+    """The cost of the motion after a release."""
 
     unknowns: int
     factorizations: int
-    seconds: float
-    memory: float
+    seconds: float  # processor time, s
+    memory: float  # largest memory, bytes
 
 
 def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCost:

@@ -60,16 +60,11 @@ LAYER_WEIGHT = 0.2
 
 @dataclass(frozen=True, kw_only=True)
 class Band:
-    """A range of frequencies, in rad/s.
+    """A range of frequencies, in rad/s."""
 
-    Attributes:
-        lowest: smallest |ω|, positive.
-        highest: largest |ω|.
-        reach: smallest and largest x between which the surface of the water is asked for, m; ``None`` for none.
-    """
-
-    lowest: float
-    highest: float
+    lowest: float  # smallest |ω|, positive
+    highest: float  # largest |ω|
+    # smallest and largest x between which the surface of the water is asked for, m; ``None`` for none
     reach: tuple[float, float] | None = None
 
     def wavenumbers(self, water: Tank) -> tuple[float, float]:
@@ -81,25 +76,15 @@ class Band:
 
 @dataclass(frozen=True, kw_only=True)
 class OpenModel:
-    """The assembled problem of open water.
+    """The assembled problem of open water."""
 
-    Attributes:
-        basin: the water around the bodies.
-        resolution: resolution of the basin.
-        absorbing_layer: dimensions of the absorbing layer.
-        shortest: largest wavenumber of the outgoing waves, in units of the basin.
-        tolerance: largest relative error that is accepted.
-        pencil: the dimensionless problem, in units of the basin.
-        attachments: springs and dampers that hold the bodies, in SI units.
-    """
-
-    basin: OpenBasin
-    resolution: Resolution
-    absorbing_layer: AbsorbingLayer
-    shortest: float
-    tolerance: float
-    pencil: OpenPencil
-    attachments: tuple[Attachment, ...] = ()
+    basin: OpenBasin  # the water around the bodies
+    resolution: Resolution  # resolution of the basin
+    absorbing_layer: AbsorbingLayer  # dimensions of the absorbing layer
+    shortest: float  # largest wavenumber of the outgoing waves, in units of the basin
+    tolerance: float  # largest relative error that is accepted
+    pencil: OpenPencil  # the dimensionless problem, in units of the basin
+    attachments: tuple[Attachment, ...] = ()  # springs and dampers that hold the bodies, in SI units
 
     def squared_frequency(self, omega: complex) -> complex:
         """Dimensionless λ = ω² of an ω in rad/s."""

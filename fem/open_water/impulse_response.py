@@ -14,19 +14,12 @@ from hydroelastic.fem.time_domain.results import ImpulseResponseTable
 
 @dataclass(frozen=True, kw_only=True)
 class ImpulseResponseSolution:
-    """Result of an impulse response analysis.
+    """Result of an impulse response analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest relative error of H, that of causality among them.
-        highest: the frequency beyond which damping is not solved for, rad/s.
-    """
-
-    table: ImpulseResponseTable
-    model: OpenModel
-    error: float
-    highest: float
+    table: ImpulseResponseTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error of H, that of causality among them
+    highest: float  # the frequency beyond which damping is not solved for, rad/s
 
 
 def solve_impulse_response(request: ImpulseResponseRequest, water: WaterMemory) -> ImpulseResponseSolution:

@@ -159,19 +159,12 @@ def direction_of(waves_from: Literal["left", "right"]) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class Incidence:
-    """Integrals of incident waves over the surfaces of the bodies.
+    """Integrals of incident waves over the surfaces of the bodies."""
 
-    Attributes:
-        planes: the waves, in units of the basin as all integrals.
-        fluxes: g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex.
-        pressures: ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns).
-        own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
-    """
-
-    planes: Sequence[Wave]
-    fluxes: np.ndarray
-    pressures: np.ndarray
-    own: np.ndarray
+    planes: Sequence[Wave]  # the waves, in units of the basin as all integrals
+    fluxes: np.ndarray  # g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex
+    pressures: np.ndarray  # ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns)
+    own: np.ndarray  # ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ')
 
     @property
     def reversed(self) -> np.ndarray:

@@ -44,17 +44,11 @@ _ESTIMATED = 5
 
 @dataclass(frozen=True, kw_only=True)
 class RadiationSolution:
-    """Result of a radiation analysis.
+    """Result of a radiation analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model; ``None`` where only limits of frequency were requested.
-        error: the largest relative error.
-    """
-
-    table: RadiationTable
-    model: OpenModel | None
-    error: float
+    table: RadiationTable  # the results in SI units
+    model: OpenModel | None  # the last field model; ``None`` where only limits of frequency were requested
+    error: float  # the largest relative error
 
 
 def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:

@@ -96,25 +96,15 @@ _LOWER = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class WaterMemory:
-    """The memory of the water around bodies. Shapes: m motions, c frequencies.
+    """The memory of the water around bodies. Shapes: m motions, c frequencies."""
 
-    Attributes:
-        memory: the exponentials and a∞, SI units per metre of width.
-        dofs: m degrees of freedom.
-        omega: frequencies of the check, rad/s, shape (c,).
-        hydrodynamic: a + i b/ω there, not by the memory, shape (c, m, m).
-        model: the field model.
-        error: estimated relative error of H on the ray and of a∞.
-        tail: b beyond the last frequency.
-    """
-
-    memory: RadiationMemory
-    dofs: tuple[Dof, ...]
-    omega: Floats
-    hydrodynamic: Complexes
-    model: OpenModel
-    error: float
-    tail: DampingTail
+    memory: RadiationMemory  # the exponentials and a∞, SI units per metre of width
+    dofs: tuple[Dof, ...]  # m degrees of freedom
+    omega: Floats  # frequencies of the check, rad/s, shape (c,)
+    hydrodynamic: Complexes  # a + i b/ω there, not by the memory, shape (c, m, m)
+    model: OpenModel  # the field model
+    error: float  # estimated relative error of H on the ray and of a∞
+    tail: DampingTail  # b beyond the last frequency
 
     @property
     def by_memory(self) -> Complexes:

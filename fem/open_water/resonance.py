@@ -77,21 +77,13 @@ _AT_REST = 1e-8
 
 @dataclass(frozen=True, kw_only=True)
 class ResonanceSolution:
-    """Result of a resonance analysis.
+    """Result of a resonance analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model; ``None`` where no motion has a restoring force.
-        error: the largest relative error.
-        known: number of resonances that were found in the region of the independent count.
-        unstable: whether a float is unstable, with a growing motion that is not a resonance.
-    """
-
-    table: ResonanceTable
-    model: OpenModel | None
-    error: float
-    known: int
-    unstable: bool
+    table: ResonanceTable  # the results in SI units
+    model: OpenModel | None  # the last field model; ``None`` where no motion has a restoring force
+    error: float  # the largest relative error
+    known: int  # number of resonances that were found in the region of the independent count
+    unstable: bool  # whether a float is unstable, with a growing motion that is not a resonance
 
 
 @dataclass(frozen=True, kw_only=True)

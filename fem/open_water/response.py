@@ -34,21 +34,13 @@ _DRAWN = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseSolution:
-    """Result of a response analysis.
+    """Result of a response analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest relative error.
-        wave_errors: about an axis errors of the amplitudes of waves, see `drift_of_orders`, shape (n, 3).
-        curves: responses between more than six frequencies, to be drawn.
-    """
-
-    table: ResponseTable
-    model: OpenModel
-    error: float
-    wave_errors: np.ndarray
-    curves: Curves | None = None
+    table: ResponseTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error
+    wave_errors: np.ndarray  # about an axis errors of the amplitudes of waves, see `drift_of_orders`, shape (n, 3)
+    curves: Curves | None = None  # responses between more than six frequencies, to be drawn
 
 
 @dataclass(frozen=True, kw_only=True)

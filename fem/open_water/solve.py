@@ -63,31 +63,18 @@ _Table: TypeAlias = (
 
 @dataclass(frozen=True, kw_only=True)
 class OpenWaterSolution:
-    """The tables of all analyses, in the order in which they were requested.
+    """The tables of all analyses, in the order in which they were requested."""
 
-    Attributes:
-        radiation: one for each radiation analysis.
-        response: one for each response analysis.
-        resonance: one for each resonance analysis.
-        decay: one for each decay analysis.
-        spectrum: one for each spectrum analysis.
-        impulse_response: one for each impulse response analysis.
-        motion: one for each motion analysis.
-        size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
-        seconds: time by stage.
-        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
-    """
-
-    radiation: tuple[RadiationTable, ...] = ()
-    response: tuple[ResponseTable, ...] = ()
-    resonance: tuple[ResonanceTable, ...] = ()
-    decay: tuple[DecayTable, ...] = ()
-    spectrum: tuple[SpectrumTable, ...] = ()
-    impulse_response: tuple[ImpulseResponseTable, ...] = ()
-    motion: tuple[MotionTable, ...] = ()
-    size: dict[str, int]
-    seconds: dict[str, float]
-    reasons: tuple[str, ...] = ()
+    radiation: tuple[RadiationTable, ...] = ()  # one for each radiation analysis
+    response: tuple[ResponseTable, ...] = ()  # one for each response analysis
+    resonance: tuple[ResonanceTable, ...] = ()  # one for each resonance analysis
+    decay: tuple[DecayTable, ...] = ()  # one for each decay analysis
+    spectrum: tuple[SpectrumTable, ...] = ()  # one for each spectrum analysis
+    impulse_response: tuple[ImpulseResponseTable, ...] = ()  # one for each impulse response analysis
+    motion: tuple[MotionTable, ...] = ()  # one for each motion analysis
+    size: dict[str, int]  # "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved
+    seconds: dict[str, float]  # time by stage
+    reasons: tuple[str, ...] = ()  # why the solution does not keep the tolerance or is incomplete; empty if it does
 
     @property
     def status(self) -> Literal["ok", "unconverged"]:

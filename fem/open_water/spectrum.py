@@ -73,17 +73,11 @@ _FIXED, _LEFT_OUT = 1e-4, 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class SpectrumSolution:
-    """Result of a spectrum analysis.
+    """Result of a spectrum analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest relative error, of transfer functions or of statistics.
-    """
-
-    table: SpectrumTable
-    model: OpenModel
-    error: float
+    table: SpectrumTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error, of transfer functions or of statistics
 
 
 def solve_spectrum(

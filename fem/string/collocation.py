@@ -31,21 +31,14 @@ Solve = Callable[[NDArray[np.complex128]], NDArray[np.complex128]]
 
 @dataclass(frozen=True, kw_only=True)
 class GaussRule:
-    """A collocation rule in the eigenvectors of its matrix, one of each conjugate pair.
+    """A collocation rule in the eigenvectors of its matrix, one of each conjugate pair."""
 
-    Attributes:
-        nodes: c, shape (stages,).
-        eigenvalues: λ with Im λ ≥ 0, shape (systems,).
-        to_systems: loads of the systems from those of the stages, shape (systems, stages).
-        velocity: weights of the solutions of the systems in the increment of v over h, doubled for conjugate pairs.
-        displacement: the same of w over h².
-    """
-
-    nodes: NDArray[np.float64]
-    eigenvalues: NDArray[np.complex128]
-    to_systems: NDArray[np.complex128]
+    nodes: NDArray[np.float64]  # c, shape (stages,)
+    eigenvalues: NDArray[np.complex128]  # λ with Im λ ≥ 0, shape (systems,)
+    to_systems: NDArray[np.complex128]  # loads of the systems from those of the stages, shape (systems, stages)
+    # weights of the solutions of the systems in the increment of v over h, doubled for conjugate pairs
     velocity: NDArray[np.complex128]
-    displacement: NDArray[np.complex128]
+    displacement: NDArray[np.complex128]  # the same of w over h²
 
 
 def gauss_rule(stages: int) -> GaussRule:

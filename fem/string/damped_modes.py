@@ -30,17 +30,12 @@ _RESIDUAL = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class DampedModes:
-    """Free motions e^{pt}, oscillating and aperiodic ones.
+    """Free motions e^{pt}, oscillating and aperiodic ones."""
 
-    Attributes:
-        roots: p, 1/s, by ascending magnitude; of a conjugate pair the one above the real axis; shape (modes,).
-        errors: estimate of their absolute errors, 1/s, shape (modes,).
-        shapes: φ at the positions asked, ∫m |φ|² + M |φ(0)|² = ρl, real and above zero at the lower end, shape
-            (modes, positions).
-    """
-
+    # p, 1/s, by ascending magnitude; of a conjugate pair the one above the real axis; shape (modes,)
     roots: NDArray[np.complex128]
-    errors: NDArray[np.float64]
+    errors: NDArray[np.float64]  # estimate of their absolute errors, 1/s, shape (modes,)
+    # φ at the positions asked, ∫m |φ|² + M |φ(0)|² = ρl, real and above zero at the lower end, shape (modes, positions)
     shapes: NDArray[np.complex128]
 
 

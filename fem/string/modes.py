@@ -30,16 +30,12 @@ _RESIDUAL = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class StringModes:
-    """Undamped modes in ascending order.
+    """Undamped modes in ascending order."""
 
-    Attributes:
-        frequencies: ω, rad/s, shape (modes,).
-        errors: estimate of their absolute errors, rad/s, from polynomials of a higher degree, and rounding.
-        shapes: φ at the positions asked, ∫m φ² + M φ(0)² = ρl, above zero at the lower end, shape (modes, positions).
-    """
-
-    frequencies: NDArray[np.float64]
+    frequencies: NDArray[np.float64]  # ω, rad/s, shape (modes,)
+    # estimate of their absolute errors, rad/s, from polynomials of a higher degree, and rounding
     errors: NDArray[np.float64]
+    # φ at the positions asked, ∫m φ² + M φ(0)² = ρl, above zero at the lower end, shape (modes, positions)
     shapes: NDArray[np.float64]
 
 

@@ -41,63 +41,37 @@ _CAUTION = 4.0
 
 @dataclass(frozen=True, kw_only=True)
 class FieldSizes:
-    """Size of the last discretisation.
-
-    Attributes:
-        elements: number of elements.
-        degree: polynomial degree.
-        unknowns: number of free unknowns.
-        steps: number of time steps.
-        half_width: time from a front within which values are smoothed, s.
-        motions_computed: number of motions computed in all, trials and error estimates included.
-    """
+    """Size of the last discretisation."""
 
     elements: int
-    degree: int
-    unknowns: int
-    steps: int
-    half_width: float
-    motions_computed: int
+    degree: int  # polynomial degree
+    unknowns: int  # number of free unknowns
+    steps: int  # number of time steps
+    half_width: float  # time from a front within which values are smoothed, s
+    motions_computed: int  # number of motions computed in all, trials and error estimates included
 
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorsByCause:
-    """Largest estimated error of each cause.
+    """Largest estimated error of each cause."""
 
-    Attributes:
-        front: error from the smoothing of fronts, of the values that are judged, m.
-        space: discretisation error in space, m.
-        time: discretisation error in time, m.
-        time_order: order observed with three step lengths; rounding lowers it.
-    """
-
-    front: float
-    space: float
-    time: float
-    time_order: float
+    front: float  # error from the smoothing of fronts, of the values that are judged, m
+    space: float  # discretisation error in space, m
+    time: float  # discretisation error in time, m
+    time_order: float  # order observed with three step lengths; rounding lowers it
 
 
 @dataclass(frozen=True, kw_only=True)
 class FieldResponse:
-    """Displacements of the string and their errors.
+    """Displacements of the string and their errors."""
 
-    Attributes:
-        values: U at the positions and times, m, shape (positions, times).
-        errors: estimate of their absolute errors, m, shape (positions, times).
-        causes: the largest errors by cause.
-        tolerance: asked, m.
-        problem: why the tolerance is not reached everywhere; empty if it is.
-        sizes: size of the last discretisation.
-        seconds: time by stage.
-    """
-
-    values: NDArray[np.float64]
-    errors: NDArray[np.float64]
-    causes: ErrorsByCause
-    tolerance: float
-    problem: str
-    sizes: FieldSizes
-    seconds: dict[str, float]
+    values: NDArray[np.float64]  # U at the positions and times, m, shape (positions, times)
+    errors: NDArray[np.float64]  # estimate of their absolute errors, m, shape (positions, times)
+    causes: ErrorsByCause  # the largest errors by cause
+    tolerance: float  # asked, m
+    problem: str  # why the tolerance is not reached everywhere; empty if it is
+    sizes: FieldSizes  # size of the last discretisation
+    seconds: dict[str, float]  # time by stage
 
     @property
     def converged(self) -> bool:

@@ -28,17 +28,11 @@ _STEP_ORDER = 8
 
 @dataclass(frozen=True, kw_only=True)
 class Resolution:
-    """Resolution of the fastest waves that the smoothed motion excites.
+    """Resolution of the fastest waves that the smoothed motion excites."""
 
-    Attributes:
-        half_width: of the smoothing, s.
-        element: phase of the fastest waves over an element, rad.
-        step: their phase over a time step, rad.
-    """
-
-    half_width: float
-    element: float = 8.0
-    step: float = 1.2
+    half_width: float  # of the smoothing, s
+    element: float = 8.0  # phase of the fastest waves over an element, rad
+    step: float = 1.2  # their phase over a time step, rad
 
     def with_smaller_half_width(self, ratio: float) -> Resolution:
         """Return the resolution that keeps the errors for a half-width, and waves, shorter by a ratio."""

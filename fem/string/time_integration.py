@@ -25,32 +25,21 @@ STAGES = 4
 
 @dataclass(frozen=True, kw_only=True)
 class TimeHistory:
-    """The string at the output times.
+    """The string at the output times."""
 
-    Attributes:
-        values: U at the positions, m, shape (positions, times).
-        energies: of w, ½∫m w_t² + ½M w_t² + ½∫T w_x², in units of ρgl² with w in metres over l, shape (times,).
-        steps: number of time steps.
-        factorizations: number of factorized complex systems.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # U at the positions, m, shape (positions, times)
+    # of w, ½∫m w_t² + ½M w_t² + ½∫T w_x², in units of ρgl² with w in metres over l, shape (times,)
     energies: NDArray[np.float64]
-    steps: int
-    factorizations: int
+    steps: int  # number of time steps
+    factorizations: int  # number of factorized complex systems
 
 
 @dataclass(frozen=True, kw_only=True)
 class StepControl:
-    """Length of the time steps.
+    """Length of the time steps."""
 
-    Attributes:
-        longest: largest step while waves from a break of the motion travel, s.
-        decay_time: time after a break when they have decayed, s; infinite without resistance.
-    """
-
-    longest: float
-    decay_time: float = inf
+    longest: float  # largest step while waves from a break of the motion travel, s
+    decay_time: float = inf  # time after a break when they have decayed, s; infinite without resistance
 
 
 # Factor on the steps when only the motion itself and slow decays remain.

@@ -18,15 +18,10 @@ _BEYOND = 1.02
 
 @dataclass(frozen=True)
 class ComparedValues:
-    """Values of the field solution.
+    """Values of the field solution."""
 
-    Attributes:
-        values: NaN where there is none, shape (values,).
-        errors: estimates of their absolute errors, shape (values,).
-    """
-
-    values: NDArray[Any]
-    errors: FloatArray
+    values: NDArray[Any]  # NaN where there is none, shape (values,)
+    errors: FloatArray  # estimates of their absolute errors, shape (values,)
 
 
 def compared_values(solution: ThreadAnalyses, estimate: ValueEstimate) -> ComparedValues:

@@ -25,44 +25,28 @@ Along = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """Where Newton's method begins.
+    """Where Newton's method begins."""
 
-    Attributes:
-        position: r in m at s of shape (n,), shape (n, dimension).
-        force: axial force in N at s, shape (n,).
-        curvature: r_ss in 1/m at s, shape (n, dimension); zero without it.
-    """
-
-    position: Along
-    force: Along
-    curvature: Along | None = None
+    position: Along  # r in m at s of shape (n,), shape (n, dimension)
+    force: Along  # axial force in N at s, shape (n,)
+    curvature: Along | None = None  # r_ss in 1/m at s, shape (n, dimension); zero without it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium:
-    """A thread at rest.
+    """A thread at rest."""
 
-    Attributes:
-        model: the thread, SI.
-        units: of the solution.
-        space: mesh of 0 ≤ s ≤ 1 and function spaces.
-        forms: of the thread in `units`; the stream is that at the solution.
-        solution: (r, S) or (r, S, κ) in `units`, a function in `space.mixed`.
-        fixed: prescribed unknowns, as boundary conditions.
-        newton_steps: their number.
-        stretch_response: derivative of the solution by a uniform stretch of the thread, a function in `space.mixed`;
-            none where the solution was given.
-        residual: residual of the equations at the owned unknowns; none where the solution was given.
-    """
-
-    model: Thread
-    units: Units
-    space: ThreadSpace
-    forms: ThreadForms
-    solution: Any
-    fixed: list[Any]
-    newton_steps: int
+    model: Thread  # the thread, SI
+    units: Units  # of the solution
+    space: ThreadSpace  # mesh of 0 ≤ s ≤ 1 and function spaces
+    forms: ThreadForms  # of the thread in `units`; the stream is that at the solution
+    solution: Any  # (r, S) or (r, S, κ) in `units`, a function in `space.mixed`
+    fixed: list[Any]  # prescribed unknowns, as boundary conditions
+    newton_steps: int  # their number
+    # derivative of the solution by a uniform stretch of the thread, a function in `space.mixed`; none where the
+    # solution was given
     stretch_response: Any = None
+    # residual of the equations at the owned unknowns; none where the solution was given
     residual: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
 
     @property

@@ -33,17 +33,11 @@ _STIFF = 1e6
 
 @dataclass(frozen=True)
 class ThreadState:
-    """Unknowns of a form, or test functions: functions or expressions of UFL.
+    """Unknowns of a form, or test functions: functions or expressions of UFL."""
 
-    Attributes:
-        position: r or η.
-        force: S or μ.
-        curvature: κ or ψ, of a thread that bends.
-    """
-
-    position: Any
-    force: Any
-    curvature: Any = None
+    position: Any  # r or η
+    force: Any  # S or μ
+    curvature: Any = None  # κ or ψ, of a thread that bends
 
 
 class ThreadForms:

@@ -26,22 +26,16 @@ _CONVERGED = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Roots:
-    """Motions e^{λt} of one kind, by ascending magnitude.
+    """Motions e^{λt} of one kind, by ascending magnitude."""
 
-    Attributes:
-        values: λ, 1/s, Im λ ≥ 0, shape (modes,).
-        errors: estimate of their absolute errors, 1/s, shape (modes,).
-        residuals: backward errors of the algebraic problem, shape (modes,).
-        shapes: displacements y at the nodes, y*My = (m + ma) L + Σ (M_k + M_a,k), the largest component real and
-            positive, shape (modes, nodes, dimension).
-        out_of_plane: share of y*My that leaves the plane of the equilibrium, from 0 to 1; NaN in two dimensions, for a
-            straight thread and for one that lies in no plane, shape (modes,).
-    """
-
-    values: NDArray[np.complex128]
-    errors: NDArray[np.float64]
-    residuals: NDArray[np.float64]
+    values: NDArray[np.complex128]  # λ, 1/s, Im λ ≥ 0, shape (modes,)
+    errors: NDArray[np.float64]  # estimate of their absolute errors, 1/s, shape (modes,)
+    residuals: NDArray[np.float64]  # backward errors of the algebraic problem, shape (modes,)
+    # displacements y at the nodes, y*My = (m + ma) L + Σ (M_k + M_a,k), the largest component real and positive, shape
+    # (modes, nodes, dimension)
     shapes: NDArray[np.complex128]
+    # share of y*My that leaves the plane of the equilibrium, from 0 to 1; NaN in two dimensions, for a straight thread
+    # and for one that lies in no plane, shape (modes,)
     out_of_plane: NDArray[np.float64]
 
     @property
@@ -59,19 +53,13 @@ class Roots:
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadModes:
-    """The motions of smallest |λ|.
+    """The motions of smallest |λ|."""
 
-    Attributes:
-        nodes: s of the shapes, m, shape (nodes,).
-        oscillating: as many as requested, one of each conjugate pair; ω = Im λ.
-        aperiodic: all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest.
-        quadratic_decay: rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest,
-            1/s, shape (oscillating,); an estimate, besides −Re λ.
-    """
-
-    nodes: NDArray[np.float64]
-    oscillating: Roots
-    aperiodic: Roots
+    nodes: NDArray[np.float64]  # s of the shapes, m, shape (nodes,)
+    oscillating: Roots  # as many as requested, one of each conjugate pair; ω = Im λ
+    aperiodic: Roots  # all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest
+    # rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest, 1/s, shape
+    # (oscillating,); an estimate, besides −Re λ
     quadratic_decay: NDArray[np.float64] | None = None
 
     @property

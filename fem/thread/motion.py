@@ -33,16 +33,11 @@ _MOST_REJECTED_SLACK = 100
 
 @dataclass(frozen=True, kw_only=True)
 class InitialMotion:
-    """Positions and velocities at the beginning.
+    """Positions and velocities at the beginning."""
 
-    Attributes:
-        position: r in m at s of shape (n,) in m, shape (n, dimension); projected to |r_s| = 1 if the thread is
-            inextensible.
-        velocity: r_t in m/s, likewise; ``None`` for a thread at rest.
-    """
-
+    # r in m at s of shape (n,) in m, shape (n, dimension); projected to |r_s| = 1 if the thread is inextensible
     position: Along
-    velocity: Along | None = None
+    velocity: Along | None = None  # r_t in m/s, likewise; ``None`` for a thread at rest
 
 
 @dataclass

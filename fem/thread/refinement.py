@@ -46,44 +46,28 @@ class NoEquilibriumError(ThreadSolverError):
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadErrors:
-    """Bounds of errors, estimated, SI.
+    """Bounds of errors, estimated, SI."""
 
-    Attributes:
-        position: of the whole thread, m.
-        tension: of the whole thread, N.
-        reaction: N.
-        moment: of the ends, N m.
-        relative: the largest of these, of positions by the length, of forces by the largest contact force or the
-            characteristic tension if that is larger, of moments by the largest one or by that which bends the thread by
-            a radian along its length.
-    """
-
-    position: float
-    tension: float
-    reaction: float
-    moment: float
+    position: float  # of the whole thread, m
+    tension: float  # of the whole thread, N
+    reaction: float  # N
+    moment: float  # of the ends, N m
+    # the largest of these, of positions by the length, of forces by the largest contact force or the characteristic
+    # tension if that is larger, of moments by the largest one or by that which bends the thread by a radian along its
+    # length
     relative: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadSolution:
-    """A thread at rest, of known accuracy.
+    """A thread at rest, of known accuracy."""
 
-    Attributes:
-        equilibrium: the finer one of the last two field solutions.
-        profile: its tables.
-        errors: the difference of the two, which bounds the error of the finer one, and rounding.
-        elements: numbers of elements of all meshes, in order.
-        newton_steps: on each of them.
-        ramps: name and number of steps of each continuation that was needed.
-    """
-
-    equilibrium: Equilibrium
-    profile: ThreadProfile
-    errors: ThreadErrors
-    elements: tuple[int, ...]
-    newton_steps: tuple[int, ...]
-    ramps: tuple[tuple[str, int], ...]
+    equilibrium: Equilibrium  # the finer one of the last two field solutions
+    profile: ThreadProfile  # its tables
+    errors: ThreadErrors  # the difference of the two, which bounds the error of the finer one, and rounding
+    elements: tuple[int, ...]  # numbers of elements of all meshes, in order
+    newton_steps: tuple[int, ...]  # on each of them
+    ramps: tuple[tuple[str, int], ...]  # name and number of steps of each continuation that was needed
 
 
 def solve_thread(
@@ -169,25 +153,15 @@ def solve_thread(
 
 @dataclass(frozen=True, kw_only=True)
 class _Pair:
-    """Solutions on a mesh and on its halves.
+    """Solutions on a mesh and on its halves."""
 
-    Attributes:
-        equilibrium: on the halves.
-        fine: its profile.
-        nodes: of the halves, m.
-        comparison: of both.
-        differences: of both, without rounding.
-        errors: the differences and rounding.
-        knots_moved: whether knots of the stream lie elsewhere along the thread than the mesh has them.
-    """
-
-    equilibrium: Equilibrium
-    fine: ThreadProfile
-    nodes: NDArray[np.float64]
-    comparison: _Comparison
-    differences: ThreadErrors
-    errors: ThreadErrors
-    knots_moved: bool
+    equilibrium: Equilibrium  # on the halves
+    fine: ThreadProfile  # its profile
+    nodes: NDArray[np.float64]  # of the halves, m
+    comparison: _Comparison  # of both
+    differences: ThreadErrors  # of both, without rounding
+    errors: ThreadErrors  # the differences and rounding
+    knots_moved: bool  # whether knots of the stream lie elsewhere along the thread than the mesh has them
 
     @property
     def error(self) -> ErrorEstimate:

@@ -19,19 +19,12 @@ from hydroelastic.meshes.compat import collapsed
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadRounding:
-    """Estimated bounds of rounding errors, SI.
+    """Estimated bounds of rounding errors, SI."""
 
-    Attributes:
-        position: of the whole thread, m.
-        tension: of the whole thread, N.
-        reaction: N.
-        moment: N m.
-    """
-
-    position: float
-    tension: float
-    reaction: float
-    moment: float
+    position: float  # of the whole thread, m
+    tension: float  # of the whole thread, N
+    reaction: float  # N
+    moment: float  # N m
 
 
 def thread_rounding(equilibrium: Equilibrium) -> ThreadRounding:

@@ -40,41 +40,26 @@ _REACH = 6.0
 
 @dataclass(frozen=True, kw_only=True)
 class Threshold:
-    """A threshold of stability.
+    """A threshold of stability."""
 
-    Attributes:
-        value: of the parameter.
-        error: estimate of its absolute error; infinite if the coarser mesh shows no threshold nearby.
-        kind: "divergence", K is singular, or "flutter", an oscillating motion begins or ceases to grow.
-        frequency: Im λ there, rad/s.
-        growing: number of growing motions, of those computed, below and above it.
-    """
-
-    value: float
-    error: float
-    kind: Kind
-    frequency: float
-    growing: tuple[int, int]
+    value: float  # of the parameter
+    error: float  # estimate of its absolute error; infinite if the coarser mesh shows no threshold nearby
+    kind: Kind  # "divergence", K is singular, or "flutter", an oscillating motion begins or ceases to grow
+    frequency: float  # Im λ there, rad/s
+    growing: tuple[int, int]  # number of growing motions, of those computed, below and above it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stability:
-    """A sweep.
+    """A sweep."""
 
-    Attributes:
-        values: of the parameter, shape (values,), without those at which the problem is ill-posed.
-        roots: λ followed by continuity, 1/s, with conjugates; NaN where one is no longer among the slowest; shape
-            (values, roots).
-        growing: number of growing motions, of those computed, shape (values,).
-        thresholds: in ascending order.
-        ill_posed: the first value left out and why, or ``None``.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # of the parameter, shape (values,), without those at which the problem is ill-posed
+    # λ followed by continuity, 1/s, with conjugates; NaN where one is no longer among the slowest; shape (values,
+    # roots)
     roots: NDArray[np.complex128]
-    growing: NDArray[np.int64]
-    thresholds: tuple[Threshold, ...]
-    ill_posed: tuple[float, str] | None
+    growing: NDArray[np.int64]  # number of growing motions, of those computed, shape (values,)
+    thresholds: tuple[Threshold, ...]  # in ascending order
+    ill_posed: tuple[float, str] | None  # the first value left out and why, or ``None``
 
 
 def stability(

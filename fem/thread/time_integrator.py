@@ -33,17 +33,11 @@ _DIFFERENCE = 1e-4
 
 @dataclass(frozen=True)
 class ExternalActions:
-    """Prescribed ends and stream as functions of time, in the units of the forms.
+    """Prescribed ends and stream as functions of time, in the units of the forms."""
 
-    Attributes:
-        ends: of A and B.
-        stream: factor of the stream by the time, ``None`` for a steady one.
-        set_stream: sets the factor.
-    """
-
-    ends: tuple[PrescribedEnd, PrescribedEnd]
-    stream: Callable[[float], float] | None
-    set_stream: Callable[[float], None]
+    ends: tuple[PrescribedEnd, PrescribedEnd]  # of A and B
+    stream: Callable[[float], float] | None  # factor of the stream by the time, ``None`` for a steady one
+    set_stream: Callable[[float], None]  # sets the factor
 
 
 class TimeIntegrator:

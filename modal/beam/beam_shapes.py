@@ -28,30 +28,20 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class BeamShapes:
-    """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ.
+    """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ."""
 
-    Attributes:
-        dofs: degree of freedom of each.
-        parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
-        deflections: distances from the left end → w of all shapes, shape (shapes, points).
-        tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
-            shape (shapes, points); of free ends.
-        moments: the same points → bending moments EI w″ of all shapes, shape (shapes, points).
-        shears: the same points → shear forces (EI w″)′, shape (shapes, points).
-        bending: twice the strain energy of each, in units of the beam, shape (shapes,).
-        mass: ∫m wᵢwⱼ, shape (shapes, shapes).
-        wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
-    """
-
-    dofs: tuple[Dof, ...]
+    dofs: tuple[Dof, ...]  # degree of freedom of each
+    # +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam
     parities: tuple[int, ...]
-    deflections: Callable[[Array], Array]
+    deflections: Callable[[Array], Array]  # distances from the left end → w of all shapes, shape (shapes, points)
+    # distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes, shape
+    # (shapes, points); of free ends
     tabulated: Callable[[Array, int], Array]
-    moments: Callable[[Array], Array]
-    shears: Callable[[Array], Array]
-    bending: Array
-    mass: Array
-    wavenumber: float
+    moments: Callable[[Array], Array]  # the same points → bending moments EI w″ of all shapes, shape (shapes, points)
+    shears: Callable[[Array], Array]  # the same points → shear forces (EI w″)′, shape (shapes, points)
+    bending: Array  # twice the strain energy of each, in units of the beam, shape (shapes,)
+    mass: Array  # ∫m wᵢwⱼ, shape (shapes, shapes)
+    wavenumber: float  # the largest wavenumber among them, 1/m or dimensionless as the beam
 
 
 def beam_shapes(beam: Beam, count: int) -> BeamShapes:

@@ -24,34 +24,21 @@ _MOST_CONTRAST = 1e9
 
 @dataclass(frozen=True, kw_only=True)
 class QuotientPair:
-    """Both quotients for the same trial space; exact ≤ Grammel ≤ Rayleigh, index by index.
+    """Both quotients for the same trial space; exact ≤ Grammel ≤ Rayleigh, index by index."""
 
-    Attributes:
-        grammel: estimates of λ = ω² from the inertia load, ascending, shape (trials,).
-        rayleigh: estimates of λ = ω² from the trial itself, ascending, shape (trials,).
-    """
-
-    grammel: FloatArray
-    rayleigh: FloatArray
+    grammel: FloatArray  # estimates of λ = ω² from the inertia load, ascending, shape (trials,)
+    rayleigh: FloatArray  # estimates of λ = ω² from the trial itself, ascending, shape (trials,)
 
 
 @dataclass(frozen=True, kw_only=True)
 class BeamQuotients:
-    """The pair for the floating beam without gravity waves.
+    """The pair for the floating beam without gravity waves."""
 
-    Attributes:
-        grammel: estimate of λ = ω² of the elastic tone, rad²/s².
-        rayleigh: the same from Rayleigh's quotient, rad²/s².
-        exact: λ of the same space with many dry modes, rad²/s².
-        index: number of the tone in its space, from 1, zero modes not counted.
-        space: the space in which the ordering holds.
-    """
-
-    grammel: float
-    rayleigh: float
-    exact: float
-    index: int
-    space: str
+    grammel: float  # estimate of λ = ω² of the elastic tone, rad²/s²
+    rayleigh: float  # the same from Rayleigh's quotient, rad²/s²
+    exact: float  # λ of the same space with many dry modes, rad²/s²
+    index: int  # number of the tone in its space, from 1, zero modes not counted
+    space: str  # the space in which the ordering holds
 
 
 def quotients(stiffness: FloatArray, mass: FloatArray, trials: FloatArray) -> QuotientPair:

@@ -20,21 +20,13 @@ MOST_NODES = 1500
 
 @dataclass(frozen=True, kw_only=True)
 class WettedShapes:
-    """Dry shapes on the discretised water, dimensionless (l = ρ = g = 1).
+    """Dry shapes on the discretised water, dimensionless (l = ρ = g = 1)."""
 
-    Attributes:
-        water: free-surface block of M, with √weights on both sides, shape (n, n).
-        coupling: −free-surface against shape block, shape (n, shapes).
-        beam: ⟨W_i, N W_j⟩, shape (shapes, shapes).
-        root_weights: √weights of the free-surface nodes, shape (n,).
-        volume: ∫ W ds of the shapes, shape (shapes,).
-    """
-
-    water: FloatArray
-    coupling: FloatArray
-    beam: FloatArray
-    root_weights: FloatArray
-    volume: FloatArray
+    water: FloatArray  # free-surface block of M, with √weights on both sides, shape (n, n)
+    coupling: FloatArray  # −free-surface against shape block, shape (n, shapes)
+    beam: FloatArray  # ⟨W_i, N W_j⟩, shape (shapes, shapes)
+    root_weights: FloatArray  # √weights of the free-surface nodes, shape (n,)
+    volume: FloatArray  # ∫ W ds of the shapes, shape (shapes,)
 
 
 def wetted_shapes(operator: SurfaceOperator, indices: tuple[int, ...]) -> WettedShapes:

@@ -31,20 +31,13 @@ class SurfaceOperator:
 
     ∫∫ f(x) N(x, x') g(x') dx dx' ≈ (weights·f)ᵀ kernel (weights·g), exact to rounding for functions that are
     smooth on each side of the tips, singular behaviour at the tips included.
-
-    Attributes:
-        positions: nodes x, m, shape (n,).
-        weights: quadrature weights of ∫₀ᴸ dx, m, shape (n,).
-        kernel: symmetric matrix, shape (n, n), dimensionless.
-        on_beam: which nodes lie under the beam, shape (n,).
-        beam_coordinate: s = (x − x₁)/l of those nodes, shape (on_beam.sum(),).
     """
 
-    positions: FloatArray
-    weights: FloatArray
-    kernel: FloatArray
-    on_beam: np.ndarray
-    beam_coordinate: FloatArray
+    positions: FloatArray  # nodes x, m, shape (n,)
+    weights: FloatArray  # quadrature weights of ∫₀ᴸ dx, m, shape (n,)
+    kernel: FloatArray  # symmetric matrix, shape (n, n), dimensionless
+    on_beam: np.ndarray  # which nodes lie under the beam, shape (n,)
+    beam_coordinate: FloatArray  # s = (x − x₁)/l of those nodes, shape (on_beam.sum(),)
 
 
 @dataclass(frozen=True, kw_only=True)

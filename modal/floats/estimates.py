@@ -15,17 +15,11 @@ from hydroelastic.modal.floats.thin_float import thin_float_added_mass
 
 @dataclass(frozen=True, kw_only=True)
 class FloatEstimate:
-    """One estimate of the heave of a float; none of them bounds an exact frequency.
+    """One estimate of the heave of a float; none of them bounds an exact frequency."""
 
-    Attributes:
-        omega: angular frequency, rad/s, or ``None`` where the method has no meaning.
-        added_mass: c/ω² − m, kg/m, c the hydrostatic stiffness without walls, or ``None``.
-        note: what the method neglects, or why there is no number.
-    """
-
-    omega: float | None
-    added_mass: float | None
-    note: str
+    omega: float | None  # angular frequency, rad/s, or ``None`` where the method has no meaning
+    added_mass: float | None  # c/ω² − m, kg/m, c the hydrostatic stiffness without walls, or ``None``
+    note: str  # what the method neglects, or why there is no number
 
     def __post_init__(self) -> None:
         for name in ("omega", "added_mass"):

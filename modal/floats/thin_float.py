@@ -14,20 +14,13 @@ class ThinConstants:
     """Dimensionless constants of a thin float in unbounded liquids; lengths in h, time in √(h/g*).
 
     g* = g (ρ₂ − ρ₁)/(ρ₂ + ρ₁). Neither the densities nor the mass, which is that of the displaced liquids, enter.
-
-    Attributes:
-        slenderness: τ = b/h, half-width over half-height, to which the theory is an expansion.
-        area_factor: S = ∫ω dy/(b h) over the upper half.
-        inertia_factor: J/b².
-        frequency_squared: Ω² h/g* = 1/(S + τJ/(πb²)).
-        coupling: ε = (2τ/π) Ω² h/g*, the strength of the waves that the float makes.
     """
 
-    slenderness: float
-    area_factor: float
-    inertia_factor: float
-    frequency_squared: float
-    coupling: float
+    slenderness: float  # τ = b/h, half-width over half-height, to which the theory is an expansion
+    area_factor: float  # S = ∫ω dy/(b h) over the upper half
+    inertia_factor: float  # J/b²
+    frequency_squared: float  # Ω² h/g* = 1/(S + τJ/(πb²))
+    coupling: float  # ε = (2τ/π) Ω² h/g*, the strength of the waves that the float makes
 
 
 def thin_constants(profile: Profile) -> ThinConstants:

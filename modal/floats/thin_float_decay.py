@@ -39,15 +39,10 @@ _BISECTIONS = 6
 
 @dataclass(frozen=True, kw_only=True)
 class FreeMotion:
-    """Motion after a release from rest, relative to the first displacement.
+    """Motion after a release from rest, relative to the first displacement."""
 
-    Attributes:
-        heave: f = s/s₀, in the shape of the times.
-        error: estimate of its absolute error, of the same shape.
-    """
-
-    heave: FloatArray
-    error: FloatArray
+    heave: FloatArray  # f = s/s₀, in the shape of the times
+    error: FloatArray  # estimate of its absolute error, of the same shape
 
 
 def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:

@@ -20,17 +20,11 @@ from hydroelastic.physics.profiles import Profile
 
 @dataclass(frozen=True, kw_only=True)
 class HeaveRadiation:
-    """What the liquids oppose to a heave s = Re ŝ e^{−iωt}: the force is ω²(a + ib/ω) ŝ.
+    """What the liquids oppose to a heave s = Re ŝ e^{−iωt}: the force is ω²(a + ib/ω) ŝ."""
 
-    Attributes:
-        added_mass: a, kg/m, in the shape of the frequencies.
-        damping: b ≥ 0, kg/(m s), of the same shape.
-        infinite_added_mass: a at ω → ∞, kg/m.
-    """
-
-    added_mass: FloatArray
-    damping: FloatArray
-    infinite_added_mass: float
+    added_mass: FloatArray  # a, kg/m, in the shape of the frequencies
+    damping: FloatArray  # b ≥ 0, kg/(m s), of the same shape
+    infinite_added_mass: float  # a at ω → ∞, kg/m
 
 
 def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLike) -> HeaveRadiation:

@@ -31,15 +31,10 @@ _WHOLE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class FreePole:
-    """A pole of the Laplace transform F(z) of the free motion f(θ), θ = t √(g*/h); its conjugate is one as well.
+    """A pole of the Laplace transform F(z) of the free motion f(θ), θ = t √(g*/h); its conjugate is one as well."""
 
-    Attributes:
-        frequency: z = p √(h/g*), Re z < 0 < Im z: the motion contains 2 Re(residue e^{zθ}).
-        residue: that of F.
-    """
-
-    frequency: complex
-    residue: complex
+    frequency: complex  # z = p √(h/g*), Re z < 0 < Im z: the motion contains 2 Re(residue e^{zθ})
+    residue: complex  # that of F
 
 
 def characteristic(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:

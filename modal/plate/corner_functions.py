@@ -25,23 +25,14 @@ _WHOLE = 1e-4
 
 @dataclass(frozen=True, kw_only=True)
 class CornerFunction:
-    """One of the functions.
+    """One of the functions."""
 
-    Attributes:
-        corner: shape (2,).
-        direction: angle of the bisector, from the x axis.
-        cut: angle of the branch cut from the bisector: a ray from the corner that does not meet the plate.
-        exponent: λ.
-        even: whether it is even about the bisector.
-        coefficients: a and c.
-    """
-
-    corner: NDArray[np.float64]
-    direction: float
-    cut: float
+    corner: NDArray[np.float64]  # shape (2,)
+    direction: float  # angle of the bisector, from the x axis
+    cut: float  # angle of the branch cut from the bisector: a ray from the corner that does not meet the plate
     exponent: float
-    even: bool
-    coefficients: tuple[float, float]
+    even: bool  # whether it is even about the bisector
+    coefficients: tuple[float, float]  # a and c
 
     def value(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return w at points (2, n)."""

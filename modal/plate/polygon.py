@@ -33,23 +33,15 @@ _NEGLIGIBLE = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class PolygonModes:
-    """Dry modes of a polygon of unit flexural rigidity, with ∫w² = 1.
+    """Dry modes of a polygon of unit flexural rigidity, with ∫w² = 1."""
 
-    Attributes:
-        basis: the functions of which the modes consist.
-        coefficients: of the functions, shape (modes, functions).
-        rigid: number of rigid motions, which come first.
-        stiffness: κ = a(w, w), exactly 0 of the rigid motions, shape (modes,).
-        orthonormal: coefficients of the functions made orthonormal one after the other, shape (functions, functions).
-        bending: a between those, shape (functions, functions).
-    """
-
-    basis: PolygonBasis
-    coefficients: NDArray[np.float64]
-    rigid: int
-    stiffness: NDArray[np.float64]
+    basis: PolygonBasis  # the functions of which the modes consist
+    coefficients: NDArray[np.float64]  # of the functions, shape (modes, functions)
+    rigid: int  # number of rigid motions, which come first
+    stiffness: NDArray[np.float64]  # κ = a(w, w), exactly 0 of the rigid motions, shape (modes,)
+    # coefficients of the functions made orthonormal one after the other, shape (functions, functions)
     orthonormal: NDArray[np.float64]
-    bending: NDArray[np.float64]
+    bending: NDArray[np.float64]  # a between those, shape (functions, functions)
 
     def deflection(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return all shapes at points (2, n), shape (modes, n)."""
@@ -58,21 +50,13 @@ class PolygonModes:
 
 @dataclass(frozen=True, kw_only=True)
 class PolygonBasis:
-    """Functions of one symmetry on a polygon: rigid motions, those of the corners, polynomials by ascending degree.
+    """Functions of one symmetry on a polygon: rigid motions, those of the corners, polynomials by ascending degree."""
 
-    Attributes:
-        middle: centre of the box around it, shape (2,).
-        half: half its sides, shape (2,).
-        degree: of the polynomials.
-        parity: even (0) or odd (1) about the middle along x and y, or both (``None``).
-        corners: functions of the corners that are kept.
-    """
-
-    middle: NDArray[np.float64]
-    half: NDArray[np.float64]
-    degree: int
-    parity: tuple[AxisParity, AxisParity]
-    corners: tuple[CornerFunction, ...]
+    middle: NDArray[np.float64]  # centre of the box around it, shape (2,)
+    half: NDArray[np.float64]  # half its sides, shape (2,)
+    degree: int  # of the polynomials
+    parity: tuple[AxisParity, AxisParity]  # even (0) or odd (1) about the middle along x and y, or both (``None``)
+    corners: tuple[CornerFunction, ...]  # functions of the corners that are kept
 
     @property
     def _powers(self) -> list[tuple[int, int]]:

@@ -22,15 +22,10 @@ _LAMBERT_FROM = 1.0
 
 @dataclass(frozen=True, kw_only=True)
 class FroudeCoefficients:
-    """Extinction δφ = aφ_m + bφ_m² of a swing in half a cycle, by the mean φ_m of the swings before and after.
+    """Extinction δφ = aφ_m + bφ_m² of a swing in half a cycle, by the mean φ_m of the swings before and after."""
 
-    Attributes:
-        linear: a, dimensionless.
-        quadratic: b, 1/rad; alone it is Bertin's N. In degrees, 1/°, it is π/180 of that.
-    """
-
-    linear: float
-    quadratic: float
+    linear: float  # a, dimensionless
+    quadratic: float  # b, 1/rad; alone it is Bertin's N. In degrees, 1/°, it is π/180 of that.
 
 
 def linear_decrement(ship: Ship) -> float:

@@ -17,33 +17,21 @@ from hydroelastic.physics.wave import WaveTrain
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollMotion:
-    """Motion at given times, all in the shape of the times.
+    """Motion at given times, all in the shape of the times."""
 
-    Attributes:
-        times: t, s.
-        angle: φ, rad; 0 before t = 0, and so are rate and acceleration.
-        rate: φ', rad/s.
-        acceleration: φ'', rad/s².
-    """
-
-    times: FloatArray
-    angle: FloatArray
-    rate: FloatArray
-    acceleration: FloatArray
+    times: FloatArray  # t, s
+    angle: FloatArray  # φ, rad; 0 before t = 0, and so are rate and acceleration
+    rate: FloatArray  # φ', rad/s
+    acceleration: FloatArray  # φ'', rad/s²
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LinearRollPath:
-    """The whole motion of a ship on a train in closed form: its state at the beginning of each wave.
-
-    Attributes:
-        ship: the ship.
-        train: the waves.
-        states: φ and φ' at ``train.starts``, shape (waves + 1, 2): before each wave, and before the free motion.
-    """
+    """The whole motion of a ship on a train in closed form: its state at the beginning of each wave."""
 
     ship: Ship
-    train: WaveTrain
+    train: WaveTrain  # the waves
+    # φ and φ' at ``train.starts``, shape (waves + 1, 2): before each wave, and before the free motion
     states: FloatArray
 
     def motion(self, times: npt.ArrayLike) -> RollMotion:

@@ -23,25 +23,15 @@ _COMPARED_PER_PERIOD = 16
 
 @dataclass(frozen=True, kw_only=True)
 class RollSolution:
-    """The motion of a ship on a train of waves.
-
-    Attributes:
-        ship: the ship.
-        train: the waves.
-        motion: angle, rate and acceleration at the times asked.
-        statistics: extremes from t = 0 to the last of these times.
-        angle_error: estimated largest absolute error of the angle, rad, of the integration or by rounding.
-        ship_error: what an error of the ship's natural frequency and damping adds to it, rad.
-        seconds: time by stage.
-    """
+    """The motion of a ship on a train of waves."""
 
     ship: Ship
-    train: WaveTrain
-    motion: RollMotion
-    statistics: RollStatistics
-    angle_error: float
-    ship_error: float
-    seconds: dict[str, float]
+    train: WaveTrain  # the waves
+    motion: RollMotion  # angle, rate and acceleration at the times asked
+    statistics: RollStatistics  # extremes from t = 0 to the last of these times
+    angle_error: float  # estimated largest absolute error of the angle, rad, of the integration or by rounding
+    ship_error: float  # what an error of the ship's natural frequency and damping adds to it, rad
+    seconds: dict[str, float]  # time by stage
 
     @property
     def relative_error(self) -> float:

@@ -25,19 +25,12 @@ PHASE_SHARE = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Exponential:
-    """One exponential c e^{st} of the motion of the upper end.
+    """One exponential c e^{st} of the motion of the upper end."""
 
-    Attributes:
-        rate: s, 1/s.
-        weight: c, m.
-        argument: ζ = R√(−s² − 2αs), from 0 in its real part: h = J₀(ζr)/J₀(ζ) has poles at μ_k.
-        mode: number of the mode that is taken out of h, or 0.
-    """
-
-    rate: complex
-    weight: complex
-    argument: complex
-    mode: int
+    rate: complex  # s, 1/s
+    weight: complex  # c, m
+    argument: complex  # ζ = R√(−s² − 2αs), from 0 in its real part: h = J₀(ζr)/J₀(ζ) has poles at μ_k
+    mode: int  # number of the mode that is taken out of h, or 0
 
 
 def exponentials(string: HangingString, forcing: Forcing) -> list[Exponential]:

@@ -40,17 +40,12 @@ LEAST_OF_MOST_TERMS, LARGEST_OF_MOST_TERMS = 12, 16
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StringResponse:
-    """Displacements of a string.
+    """Displacements of a string."""
 
-    Attributes:
-        values: U(x, t), m, shape (positions, times).
-        errors: estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding.
-        terms: the largest number of modes that was used.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # U(x, t), m, shape (positions, times)
+    # estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding
     errors: NDArray[np.float64]
-    terms: int
+    terms: int  # the largest number of modes that was used
 
 
 def string_response(
@@ -137,42 +132,25 @@ def _affordable(series: int, needed: float) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class _Octave:
-    """Modes from one number to twice that: shapes at all positions, motions at the times that need them.
+    """Modes from one number to twice that: shapes at all positions, motions at the times that need them."""
 
-    Attributes:
-        numbers: k, shape (modes,).
-        shapes: B_k, shape (positions, modes).
-        coordinates: q_k, shape (modes, times).
-    """
-
-    numbers: NDArray[np.int_]
-    shapes: NDArray[np.float64]
-    coordinates: NDArray[np.float64]
+    numbers: NDArray[np.int_]  # k, shape (modes,)
+    shapes: NDArray[np.float64]  # B_k, shape (positions, modes)
+    coordinates: NDArray[np.float64]  # q_k, shape (modes, times)
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Tile:
-    """A grid of rising positions and times that is small enough to be computed at once.
-
-    Attributes:
-        string: the string.
-        forcing: the motion of its upper end.
-        parts: its exponentials.
-        ratios: r, rising, shape (positions,).
-        times: s, rising, shape (times,).
-        tolerance: of the truncation error, m.
-        needed: the fewest modes at each time, shape (times,).
-        most_terms: largest number of modes.
-    """
+    """A grid of rising positions and times that is small enough to be computed at once."""
 
     string: HangingString
-    forcing: Forcing
+    forcing: Forcing  # the motion of its upper end
     parts: Sequence[Exponential]
-    ratios: NDArray[np.float64]
-    times: NDArray[np.float64]
-    tolerance: float
-    needed: NDArray[np.float64]
-    most_terms: int
+    ratios: NDArray[np.float64]  # r, rising, shape (positions,)
+    times: NDArray[np.float64]  # s, rising, shape (times,)
+    tolerance: float  # of the truncation error, m
+    needed: NDArray[np.float64]  # the fewest modes at each time, shape (times,)
+    most_terms: int  # largest number of modes
 
     def response(self) -> StringResponse:
         """Return values and errors on the grid."""

@@ -64,21 +64,13 @@ def fewest_terms(
 
 @dataclass(frozen=True, kw_only=True)
 class Truncation:
-    """Estimates of the truncation error of sums of modes.
-
-    Attributes:
-        string: the string.
-        forcing: the motion of the upper end.
-        parts: its exponentials.
-        ratios: r of the positions, shape (positions,).
-        times: s, rising, shape (times,).
-    """
+    """Estimates of the truncation error of sums of modes."""
 
     string: HangingString
-    forcing: Forcing
+    forcing: Forcing  # the motion of the upper end
     parts: Sequence[Exponential]
-    ratios: NDArray[np.float64]
-    times: NDArray[np.float64]
+    ratios: NDArray[np.float64]  # r of the positions, shape (positions,)
+    times: NDArray[np.float64]  # s, rising, shape (times,)
 
     def errors(self, terms: int, rows: NDArray[np.int_], columns: NDArray[np.int_]) -> NDArray[np.float64]:
         """Return estimates of the error of N = terms, m.
@@ -129,17 +121,11 @@ class Truncation:
 
 @dataclass(frozen=True, kw_only=True)
 class _Tail:
-    """The tail from N/2 on, for terms that are 1 there and decay as k^{−p}.
+    """The tail from N/2 on, for terms that are 1 there and decay as k^{−p}."""
 
-    Attributes:
-        terms: N.
-        decay: p.
-        damping: αR, dimensionless.
-    """
-
-    terms: int
-    decay: float
-    damping: float
+    terms: int  # N
+    decay: float  # p
+    damping: float  # αR, dimensionless
 
     def at(self, distances: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the bound at distances d from a front."""

@@ -13,19 +13,11 @@ class NoAsymptoticError(ValueError):
 
 @dataclass(frozen=True)
 class AsymptoticThread:
-    """An asymptotic solution with its truncation error.
+    """An asymptotic solution with its truncation error."""
 
-    Attributes:
-        shape: positions and contact forces.
-        order: of the last terms that are kept.
-        small: the small parameter of the expansion.
-        position_truncation: estimate of the largest error of a position, m: the next term, or the last one times the
-            small parameter.
-        force_truncation: the same of a contact force, N.
-    """
-
-    shape: ThreadShape
-    order: int
-    small: float
+    shape: ThreadShape  # positions and contact forces
+    order: int  # of the last terms that are kept
+    small: float  # the small parameter of the expansion
+    # estimate of the largest error of a position, m: the next term, or the last one times the small parameter
     position_truncation: float
-    force_truncation: float
+    force_truncation: float  # the same of a contact force, N

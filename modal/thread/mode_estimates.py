@@ -182,21 +182,13 @@ def _cable(thread: Thread, count: int, analysis: int, out_of_plane: bool) -> Val
 
 @dataclass(frozen=True)
 class _Along:
-    """A straight thread in a uniform stream along it.
+    """A straight thread in a uniform stream along it."""
 
-    Attributes:
-        thread: in space, SI units.
-        tension: T, N.
-        stretch: |r_s| − 1, which the theory takes as small.
-        ends: how they are held.
-        speed: U, m/s.
-    """
-
-    thread: Thread
-    tension: float
-    stretch: float
-    ends: Ends
-    speed: float
+    thread: Thread  # in space, SI units
+    tension: float  # T, N
+    stretch: float  # |r_s| − 1, which the theory takes as small
+    ends: Ends  # how they are held
+    speed: float  # U, m/s
 
     @property
     def order(self) -> dict[str, Any]:

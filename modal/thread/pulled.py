@@ -25,15 +25,10 @@ _FOUND = 1e-12
 
 @dataclass(frozen=True)
 class PulledThread:
-    """A thread with arc lengths from its fixed end.
+    """A thread with arc lengths from its fixed end."""
 
-    Attributes:
-        thread: in space, SI units, with one fixed and one free end.
-        positions_from_a: where the shape is wanted, m from end A.
-    """
-
-    thread: Thread
-    positions_from_a: FloatArray
+    thread: Thread  # in space, SI units, with one fixed and one free end
+    positions_from_a: FloatArray  # where the shape is wanted, m from end A
 
     @staticmethod
     def fits(thread: Thread) -> bool:

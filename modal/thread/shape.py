@@ -15,17 +15,11 @@ class NoTensionError(RuntimeError):
 
 @dataclass(frozen=True)
 class ThreadShape:
-    """A thread at places along it.
+    """A thread at places along it."""
 
-    Attributes:
-        s: unstretched arc length from end A, m, increasing, shape (n,).
-        positions: r, m, shape (n, 3).
-        forces: contact force N of the part beyond s on the part before it, N, shape (n, 3).
-    """
-
-    s: FloatArray
-    positions: FloatArray
-    forces: FloatArray
+    s: FloatArray  # unstretched arc length from end A, m, increasing, shape (n,)
+    positions: FloatArray  # r, m, shape (n, 3)
+    forces: FloatArray  # contact force N of the part beyond s on the part before it, N, shape (n, 3)
 
     @property
     def tensions(self) -> FloatArray:

@@ -34,13 +34,9 @@ ElasticModes: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=200)]
 
 @dataclass(frozen=True)
 class OrElse:
-    """Another form of a value, for the JSON schema of scenes.
+    """Another form of a value, for the JSON schema of scenes."""
 
-    Attributes:
-        form: its schema, or the model of a table.
-    """
-
-    form: dict[str, Any] | type[BaseModel]
+    form: dict[str, Any] | type[BaseModel]  # its schema, or the model of a table
 
     def __get_pydantic_json_schema__(self, own: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         other = self.form if isinstance(self.form, dict) else handler(self.form.__pydantic_core_schema__)

@@ -18,11 +18,7 @@ from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
 @dataclass(frozen=True, kw_only=True)
 class OpenSolution(OpenWaterSolution):
-    """The solution of a scene with open ends; tables in the order of the scene's analyses.
-
-    Attributes:
-        scene: the scene.
-    """
+    """The solution of a scene with open ends; tables in the order of the scene's analyses."""
 
     scene: TankParts
 

@@ -34,19 +34,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SampledWater:
-    """Results that are written and drawn.
+    """Results that are written and drawn."""
 
-    Attributes:
-        solution: the tables.
-        fields: fields of the analyses, on rank 0.
-        plans: waves around solids of revolution in plan view, on rank 0.
-        missing: which fields there are not, and why.
-    """
-
-    solution: OpenSolution
-    fields: tuple[SampledField, ...]
-    plans: tuple[PlanWaves, ...]
-    missing: tuple[str, ...]
+    solution: OpenSolution  # the tables
+    fields: tuple[SampledField, ...]  # fields of the analyses, on rank 0
+    plans: tuple[PlanWaves, ...]  # waves around solids of revolution in plan view, on rank 0
+    missing: tuple[str, ...]  # which fields there are not, and why
 
 
 def _sample(solution: OpenSolution, _summary: Reading) -> SampledWater:

@@ -15,19 +15,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class RollResult:
-    """A solved scene.
-
-    Attributes:
-        scene: the scene.
-        solution: the motion; the error of its ship is that of the section.
-        section: roll of the section by its field solution; ``None`` without one.
-        seconds: time by stage.
-    """
+    """A solved scene."""
 
     scene: RollScene
-    solution: RollSolution
-    section: SectionRoll | None
-    seconds: dict[str, float]
+    solution: RollSolution  # the motion; the error of its ship is that of the section
+    section: SectionRoll | None  # roll of the section by its field solution; ``None`` without one
+    seconds: dict[str, float]  # time by stage
 
     @property
     def levels(self) -> tuple[float, ...]:

@@ -39,7 +39,6 @@ class SizeField:
         rings: list[tuple[Point, float]],
         bends: list[Discs],
     ) -> None:
-        """Collect the sources."""
         self._bulk_size = bulk_size
         corners = np.array([centre for centre, _ in rings]).reshape(-1, 2)
         outermost = np.array([radius for _, radius in rings])

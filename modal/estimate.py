@@ -49,7 +49,6 @@ def added_mass_from_frequency(beam: FloatingBeam, omega: float) -> float:
     not appear.
 
     Args:
-        beam: the problem.
         omega: frequency of the wet tone, rad/s, positive.
 
     Source: theory of the aquarium, docs, § 1.3, erratum 9.
@@ -64,7 +63,6 @@ def paper_equivalent_mass(beam: FloatingBeam, omega: float) -> float:
     With hydrostatics it can fall below the beam's own mass; `added_mass_from_frequency` is the sound definition.
 
     Args:
-        beam: the problem.
         omega: frequency of the wet tone, rad/s, positive.
 
     Source: "On the liquid added mass under the oscillations of the elastic rod floating on the aquatorium surface",

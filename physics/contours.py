@@ -284,7 +284,6 @@ def _stops(arc: Arc, level: float, near: float) -> list[_Stop]:
 
 
 def _by_side(arc: Arc, stops: list[_Stop], level: float) -> Iterator[tuple[int, Arc]]:
-    """The pieces of an arc between the stops on the level, each with its side."""
     heights = [point[1] - level for _, point in stops]
     cuts = [0, *(n for n in range(1, len(stops) - 1) if heights[n] == 0.0), len(stops) - 1]
     for begin, end in pairwise(cuts):

@@ -133,7 +133,6 @@ class RigidFloat(Body):
         Of a solid these are the displacements in its plane θ = 0.
 
         Args:
-            motion: which.
             points: shape (2, n).
 
         Returns:

@@ -59,7 +59,6 @@ def moments(
     """Return ∫ |T|² S ωⁿ dω between the first and the last frequency, shape (orders, q).
 
     Args:
-        spectrum: of the waves.
         omegas: ascending, at least four, rad/s, shape (n,).
         transfer: T at these, shape (n, q).
         orders: n.
@@ -85,7 +84,6 @@ def statistics(
     """Return the statistics of linear responses.
 
     Args:
-        spectrum: of the waves.
         omegas: frequencies, ascending, at least eight, rad/s, shape (n,).
         transfer: responses per unit elevation, shape (n, q).
         errors: their absolute errors, shape (n, q).

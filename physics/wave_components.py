@@ -21,7 +21,6 @@ def wave_components(
     """Return frequencies ω, rad/s, amplitudes, m, and phases, rad, of regular waves, each of shape (count,).
 
     Args:
-        spectrum: of the waves.
         count: N.
         seed: of NumPy's default generator, which draws the phases; the same gives the same waves.
     """

@@ -48,7 +48,6 @@ class BeamLoads:
     """Deflection and loads along a beam in waves.
 
     Args:
-        model: the problem.
         index: of the beam among the bodies.
         x: distances from its left end, in units of the basin, shape (p,).
     """
@@ -208,9 +207,6 @@ class _Trace:
     """∫₀ˣ [ρΨ] dx′ and ∫₀ˣ (x − x′) [ρΨ] dx′ along a surface.
 
     Args:
-        model: the problem.
-        surface: its name.
-        start: of its left end.
         x: distances from there, shape (p,).
     """
 

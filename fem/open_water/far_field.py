@@ -33,7 +33,6 @@ class FarField:
     """Integrals over a band of cells around the bodies, at the sides of a box.
 
     Args:
-        pencil: the problem.
         low: lower bounds of the box, within the basin, shape (gdim,); −∞ where that ends at a bed.
         high: upper bounds, shape (gdim,); ∞ where it ends at a top.
     """

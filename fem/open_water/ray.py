@@ -98,7 +98,6 @@ class RayIntegral:
     """The integral for one model.
 
     Args:
-        model: the problem.
         limit: a(∞) in units of the model, shape (m, m).
         initial: a₀ in body unknowns, shape (m,).
         ray: path of integration.

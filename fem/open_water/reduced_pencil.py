@@ -43,9 +43,6 @@ class LoadProducts:
 class ReducedPencil:
     """A basis that grows by solutions, and the pencil projected on it.
 
-    Args:
-        pencil: the problem.
-
     Attributes:
         size: number of basis vectors.
     """

@@ -36,7 +36,6 @@ class OpenSolver:
     """Solves one model; frequencies ω in rad/s.
 
     Args:
-        model: the problem.
         watch: records the time by stage.
 
     Attributes:

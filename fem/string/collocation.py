@@ -73,7 +73,6 @@ class Collocation:
     """
 
     def __init__(self, mass: PETSc.Mat, resistance: PETSc.Mat, stiffness: PETSc.Mat, stages: int) -> None:
-        """Keep the matrices; nothing is factorized yet."""
         self.rule = gauss_rule(stages)
         self._mass, self._resistance, self._stiffness = mass, resistance, stiffness
         self._source, self._image = mass.createVecs()

@@ -62,9 +62,6 @@ class StringRuns:
     """One motion of one string at chosen resolutions.
 
     Args:
-        comm: communicator.
-        string: the string.
-        motion: of its upper end.
         positions: x, m, shape (positions,).
         times: s, increasing, shape (times,).
         tolerance: absolute, m, which sets the digits of the smoothing.

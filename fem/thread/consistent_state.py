@@ -34,7 +34,6 @@ class ConsistentState:
     """
 
     def __init__(self, step: ThreadStep) -> None:
-        """Keep the step; equations are compiled when they are needed."""
         self._step, self._forms = step, step.forms
         self._tests = ufl.TestFunctions(step.forms.space.mixed)
         self._unknown = step.unknown

@@ -22,9 +22,6 @@ from hydroelastic.meshes.compat import collapsed
 class QuadraticDecay:
     """Decay rates of the modes of one thread.
 
-    Args:
-        operators: of the thread.
-
     Raises:
         ValueError: in a stream, where the drag has a linear part that C holds.
     """

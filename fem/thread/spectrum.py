@@ -31,8 +31,6 @@ class Spectrum:
     """The slowest motions at one value of the parameter, solved for on first access.
 
     Args:
-        value: of the parameter.
-        operators: of the thread there.
         count: how many oscillating motions.
 
     Attributes:

@@ -51,7 +51,6 @@ class StreamField:
 
     Args:
         mesh: intervals in s.
-        dimension: of the positions.
         stream: u(r).
         quadrature_degree: of the forms that will use it.
     """

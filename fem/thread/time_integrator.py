@@ -44,7 +44,6 @@ class TimeIntegrator:
     """State of a moving thread, and steps in time.
 
     Args:
-        forms: of the thread.
         actions: prescribed ends and stream by the time.
         alpha: parameters of the generalised-α method, ``None`` for the midpoint rule.
         shedding: the force of vortices.

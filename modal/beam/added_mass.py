@@ -28,7 +28,6 @@ def lid_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     about 1e-12.
 
     Args:
-        beam: the problem.
         index: shape of `free_free_shape`, without volume: 1 (pitch) or an elastic one.
 
     Returns:
@@ -73,9 +72,6 @@ def cosine_cube_sum(angle: float) -> float:
     Args:
         angle: α, rad, any.
 
-    Returns:
-        The sum.
-
     Source: L. Lewin, "Polylogarithms and Associated Functions", North Holland, 1981, on Clausen's functions.
     """
     folded = math.fmod(abs(angle), 2 * math.pi)
@@ -91,7 +87,6 @@ def strip_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     """Return ρ/(κ tanh κH), the added mass per length of a travelling wave of the dry wavenumber.
 
     Args:
-        beam: the problem.
         index: elastic shape of `free_free_shape`.
 
     Returns:
@@ -110,9 +105,6 @@ def deep_open_constant(index: int = 2) -> float:
 
     Args:
         index: shape of `free_free_shape`; heave gives π/8 and pitch 3π/64 (for ∫W² dz = l).
-
-    Returns:
-        The dimensionless constant.
 
     Source: theory of the aquarium, docs, § 2.
     """
@@ -144,9 +136,6 @@ def shallow_constant(index: int = 2) -> float:
 
     Args:
         index: elastic shape of `free_free_shape`; b = κ l.
-
-    Returns:
-        The dimensionless constant.
 
     Source: theory of the aquarium, docs, § 2 (shallow).
     """

@@ -28,7 +28,6 @@ def all_estimates(beam: FloatingBeam, terms: int = 32) -> dict[str, Estimate]:
     """Return every estimate of the first elastic tone by its name; a method without meaning says so in its note.
 
     Args:
-        beam: the problem.
         terms: N of the N-term forms, at least 1.
 
     Returns:

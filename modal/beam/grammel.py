@@ -79,7 +79,6 @@ def beam_quotients(beam: FloatingBeam, shapes: int = _SHAPES) -> BeamQuotients:
     tone is the one of the highest index.
 
     Args:
-        beam: the problem.
         shapes: dry shapes that stand for the space, rigid ones included.
 
     Returns:

@@ -25,7 +25,6 @@ def one_term_root(beam: FloatingBeam, number: int) -> float:
     R_nn = Σ c_j²/(l (K_j − m λ)) is summed over dry shapes: nothing overflows and no resonance is removable.
 
     Args:
-        beam: the problem.
         number: n of the cosine, at least 1.
 
     Returns:
@@ -81,7 +80,6 @@ def term_tones(beam: FloatingBeam, terms: int, *, volume_term: bool = True) -> T
     exact one, with an error O(N⁻²). Without it (the paper's set) the limit is wrong.
 
     Args:
-        beam: the problem.
         terms: N, the last cosine, at least 1.
         volume_term: whether i = 0 is kept.
 

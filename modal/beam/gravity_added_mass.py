@@ -35,9 +35,6 @@ def wetted_shapes(operator: SurfaceOperator, indices: tuple[int, ...]) -> Wetted
     Args:
         operator: N on a `FloatingBeam.dimensionless` problem.
         indices: shapes of `free_free_shape`.
-
-    Returns:
-        The blocks.
     """
     under = operator.on_beam
     loads = np.zeros((len(operator.weights), len(indices)))
@@ -66,7 +63,6 @@ def gravity_added_mass(
     It has poles at the sloshing frequencies of the tank with the beam held still.
 
     Args:
-        beam: the problem.
         squared_frequency: λ = ω², rad²/s², positive.
         indices: shapes of `free_free_shape`, normalised to ∫W² dz = l.
 
@@ -101,7 +97,6 @@ def gravity_tones(beam: FloatingBeam, indices: tuple[int, ...], squared_frequenc
     It is a Ritz solution of the exact problem: each λ lies above the exact one of the same index.
 
     Args:
-        beam: the problem.
         indices: shapes of `free_free_shape`; 2 (dry mode 1) must be among them.
         squared_frequency: largest λ of interest, rad²/s²; sets the resolution.
 

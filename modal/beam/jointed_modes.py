@@ -125,7 +125,6 @@ def jointed_modes(beam: Beam, count: int) -> JointedModes:
     """Return the first dry modes of a beam.
 
     Args:
-        beam: the beam.
         count: how many, rigid ones included.
 
     Returns:

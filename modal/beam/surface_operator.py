@@ -56,7 +56,6 @@ def nodes_needed(beam: FloatingBeam, squared_frequency: float, largest_index: in
     and the wavelength 2π/κ of the shapes under the beam.
 
     Args:
-        beam: the problem.
         squared_frequency: largest λ = ω² that must be resolved, rad²/s².
         largest_index: largest index of `free_free_shape` that must be resolved.
 
@@ -84,11 +83,7 @@ def surface_operator(beam: FloatingBeam, node_counts: list[int]) -> SurfaceOpera
     by the Martensen–Kussmaul rule for the logarithm on the doubled circle, on nodes graded toward every segment end.
 
     Args:
-        beam: the problem.
         node_counts: nodes on the left gap, beam and right gap (`nodes_needed`).
-
-    Returns:
-        The operator.
 
     Source: theory of the aquarium, docs, § 0 (kernel) and § 3 (method B); R. Kress, "Linear Integral Equations".
     """

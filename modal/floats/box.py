@@ -61,7 +61,6 @@ def box_modes(body: FloatInTank, count: int, *, volume_term: bool = True) -> Box
 
     Args:
         body: the problem; two liquids need a rigid lid.
-        count: how many modes.
         volume_term: whether the mean level may rise; without it the volume is not kept, which is wrong.
 
     Source: two liquids, docs, § 6.

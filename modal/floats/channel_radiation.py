@@ -28,7 +28,6 @@ def channel_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray
     exponentially little, since all is analytic in Re k > 0.
 
     Args:
-        profile: the section.
         layers: the liquids; two need a rigid lid. One of the depths may be infinite.
         frequency: ω > 0, rad/s, shape (n,).
 

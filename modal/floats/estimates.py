@@ -31,9 +31,6 @@ class FloatEstimate:
 def all_float_estimates(body: FloatInTank) -> dict[str, FloatEstimate]:
     """Return every estimate of the heave of a float by its name; a method without meaning says so in its note.
 
-    Args:
-        body: the problem.
-
     Returns:
         ``hydrostatic`` (no added mass), ``high_frequency`` (exact added mass of the section without waves and walls),
         ``thin_float`` (the thin-float theory without walls), ``thin_float_box`` (thin boundary, walls, waves).

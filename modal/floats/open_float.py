@@ -63,7 +63,6 @@ def released_float(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> 
     """Return s(t)/s₀ of a thin float released from rest in deep open water at rest.
 
     Args:
-        profile: the section.
         layers: the liquids; two need a rigid lid or an infinite depth above.
         time: t ≥ 0, s.
     """

@@ -99,7 +99,6 @@ def section_heave_added_mass(profile: Profile, density_below: float, density_abo
     with the complete elliptic integrals of the parameter m.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
     """

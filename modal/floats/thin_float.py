@@ -41,7 +41,6 @@ def thin_float_mass(profile: Profile, density_below: float, density_above: float
     """Return m = (ρ₁ + ρ₂) 2bhS, kg/m, with which the float rests with its level y = 0 at the interface.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
     """
@@ -62,7 +61,6 @@ def thin_float_stiffness(profile: Profile, density_below: float, density_above: 
     """Return c = 2b (ρ₂ − ρ₁) g, N/m², the hydrostatic stiffness in heave between levels of unlimited length.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³.
         gravity: g, m/s².

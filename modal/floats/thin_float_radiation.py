@@ -36,7 +36,6 @@ def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLi
     slenderness τ.
 
     Args:
-        profile: the section.
         layers: the liquids; two need a rigid lid or an infinite depth above.
         omega: ω > 0, rad/s; may be empty.
 
@@ -69,7 +68,6 @@ def complex_added_mass(profile: Profile, layers: TwoLayers, rate: npt.ArrayLike)
     (m + H) p² + c = 0 at the resonances.
 
     Args:
-        profile: the section.
         layers: the liquids; their depths are not used.
         rate: p, 1/s, as z in `wave_integral`.
     """

@@ -41,7 +41,6 @@ def characteristic(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     """Return D(z) = z² (1 + ε G(z)) + Ω²h/g*, inertia with waves and stiffness of the float, whose zeros are its poles.
 
     Args:
-        profile: the section.
         frequency: z, as for `wave_integral`.
     """
     constants = thin_constants(profile)
@@ -83,7 +82,6 @@ def pole_count(profile: Profile, angle: float) -> int:
     ``angle`` = π, along the upper side of the cut, it is 2.
 
     Args:
-        profile: the section.
         angle: between π/2 and `greatest_angle`; no pole may lie on that ray.
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):

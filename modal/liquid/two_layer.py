@@ -97,7 +97,6 @@ def interface_frequencies(
     ρ₁ → ρ₂, and for layers and waves of any ratio.
 
     Args:
-        layers: the liquids.
         wavenumber: k > 0, 1/m.
         plate: a plate on the interface, or ``None``.
 
@@ -128,9 +127,7 @@ def tank_modes(
     """Return the lowest modes of the closed tank, k = nπ/L, of all branches together.
 
     Args:
-        layers: the liquids.
         tank_length: L, m.
-        count: how many modes.
         plate: a plate from wall to wall with guided ends, or ``None``.
 
     Returns:

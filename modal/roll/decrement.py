@@ -69,9 +69,7 @@ def swing_amplitudes(ship: Ship, amplitude: float, count: int) -> FloatArray:
     In closed form where one of both dampings is 0; otherwise by integration from swing to swing, to about 1e-12.
 
     Args:
-        ship: the ship.
         amplitude: the first swing, rad, from 0.
-        count: how many more.
 
     Returns:
         The swings, rad, shape (count + 1,), the first one included.
@@ -139,7 +137,6 @@ def equivalent_roll_damping(ship: Ship, amplitude: float) -> float:
     """Return the linear damping that takes as much energy from a harmonic roll with k: n + (4/(3π)) d k A, 1/s.
 
     Args:
-        ship: the ship.
         amplitude: A, rad, from 0.
     """
     _check_from_zero("amplitude", amplitude)

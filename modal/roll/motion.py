@@ -101,7 +101,6 @@ def roll_response(
     of the largest angle so far, and of the phase kt in a long free motion.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         times: t, s, in any order and of any shape.
         angle: φ at t = 0, rad.

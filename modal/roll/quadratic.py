@@ -77,7 +77,6 @@ def quadratic_roll_path(
     are refined until two motions agree.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         end: last time, s.
         angle: φ at t = 0, rad.

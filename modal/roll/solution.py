@@ -53,7 +53,6 @@ def roll_solution(
     """Return the motion of a ship: in closed form, or with quadratic damping by integration in time.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         times: t, s, from 0, ascending, shape (times,).
         angle: φ at t = 0, rad.

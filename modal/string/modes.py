@@ -43,9 +43,7 @@ def free_motion_jumps(
     They are those of the forced part with the opposite sign.
 
     Args:
-        string: the string.
         forcing: the motion of the upper end.
-        parts: its exponentials.
         frequencies: Ω of the modes, 1/s, shape (modes,).
         first_mode: number of the first of these modes.
     """

@@ -54,7 +54,6 @@ def forced_part(
     """Return the forced part of the motion, with the whole motion of the modes that are taken out of it.
 
     Args:
-        string: the string.
         forcing: the motion of the upper end.
         ratios: r = √(x/l), shape (positions,).
         times: s, shape (times,).

@@ -60,7 +60,6 @@ def string_response(
     """Return the displacement U(x, t) of a string that is at rest before its upper end moves.
 
     Args:
-        string: the string.
         motion: f(t) of its upper end, from `physics/string_motions.py`.
         positions: x above the free lower end, m, shape (positions,) or one.
         times: t, s, not negative, shape (times,) or one, in any order.

@@ -17,7 +17,6 @@ class Rounding:
     The amplitude is rounded at every start, and may be so to the same side; the phase is rounded with Ωt.
 
     Args:
-        string: the string.
         starts: times at which the motion of the upper end starts anew, s, shape (starts,).
         ratios: r of the positions, shape (positions,).
         times: s, shape (times,).

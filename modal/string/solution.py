@@ -109,8 +109,6 @@ def series_solution(
     """Sum the series of a uniform string without a tip mass.
 
     Args:
-        string: the string.
-        motion: of its upper end.
         positions: heights x above the free end, m, shape (positions,).
         times: t, s, shape (times,).
         tolerance: asked error of the displacement, relative to the largest one.

@@ -93,7 +93,6 @@ def require_bare_thread(thread: Thread, *, stretch: bool) -> None:
     """Refuse threads that no theory of the shape covers: with bending, bodies, or the reaction of a liquid.
 
     Args:
-        thread: the thread.
         stretch: whether the thread may stretch.
     """
     require(thread.flexural_rigidity == 0.0, "the thread resists bending")

@@ -46,7 +46,6 @@ def float_contour(body: AnyFloat, folder: Path) -> Contour | SolidOfRevolution:
     In it x = 0 at its position and y = 0 at its reference level.
 
     Args:
-        body: the float.
         folder: to which the path of an outline's file is relative.
 
     Raises:
@@ -75,7 +74,6 @@ def level_at_rest(
     """Return the ordinate of the still level in a float's frame, m: by its mass, or by its draught without one.
 
     Args:
-        body: the float.
         contour: in the float's frame, m.
         densities: below and above the level, kg/m³.
         gravity: m/s².
@@ -93,7 +91,6 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
     """Return a float of a scene at rest, in the frame of the tank, m.
 
     Args:
-        scene: the scene.
         index: of the float among the bodies.
 
     Raises:
@@ -119,7 +116,6 @@ def held_float(scene: TankParts, index: int, placed: RigidFloat) -> RigidFloat:
     """Return a float that is placed, with its springs to the ground.
 
     Args:
-        scene: the scene.
         index: of the float among the bodies.
         placed: see `placed_float`.
     """

@@ -1,6 +1,6 @@
 """Incident waves: their pressures on the bodies, and amplitudes of radiated and scattered waves far away.
 
-A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `far_field` an outgoing
+A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. with the fluxes I(φ) of `field_model` an outgoing
 ψ ~ c± e^{±ikx} Z has
 
     c± = i I(φ∓)/(2kN),    N = ∫ρZ² dy,

@@ -25,7 +25,7 @@ from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_wate
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models import SeaScene, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.open_water.solve import solve_open
+from hydroelastic.scenes.open_water.run import solve_open
 
 TOLERANCE, CREST = 1e-2, 1.5
 WAVE = RegularWave(omega=2.2, amplitude=0.05, phase=0.3)

@@ -9,8 +9,7 @@ import pytest
 from base_beam import BASE
 from scipy.linalg import eigh
 
-from hydroelastic.modal.beam.grammel import beam_quotients, quotients
-from hydroelastic.modal.beam.grammel_terms import one_term_root, term_tones
+from hydroelastic.modal.beam.grammel import beam_quotients, one_term_root, quotients, term_tones
 
 
 def _pencil(size: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.random.Generator]:

@@ -20,8 +20,7 @@ from hydroelastic.modal.beam.added_mass import (
 )
 from hydroelastic.modal.beam.dry_modes import free_free_roots
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
-from hydroelastic.modal.beam.grammel import beam_quotients
-from hydroelastic.modal.beam.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.beam.grammel import beam_quotients, best_term, one_term_root, term_tones
 from hydroelastic.modal.beam.gravity_added_mass import gravity_added_mass, gravity_tones
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.beam.rayleigh import (

@@ -7,16 +7,18 @@ them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import NDArray
 
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
-from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
 
@@ -157,3 +159,22 @@ def first_bending(beam: Beam) -> float:
     """Twice the strain energy of the first elastic shape over ∫w²: EI κ⁴ of a uniform beam."""
     shapes = beam_shapes(beam, 3 + len(beam.hinges))
     return float(shapes.bending[shapes.dofs.index(FIRST_ELASTIC)] / beam.length)
+
+
+def guided_wavenumber(index: int) -> float:
+    """Return κ l = index·π; index 0 is heave."""
+    return index * math.pi
+
+
+def guided_shape(index: int, s: npt.ArrayLike) -> FloatArray:
+    """Return cos(index π s), scaled to ∫₀¹ W² ds = 1.
+
+    Args:
+        index: 0 heave, 1, 2, … elastic.
+        s: z/l along the beam, 0 to 1.
+
+    Returns:
+        Values in the shape of ``s``.
+    """
+    scale = 1.0 if index == 0 else math.sqrt(2.0)
+    return scale * np.cos(index * math.pi * np.asarray(s, dtype=np.float64))

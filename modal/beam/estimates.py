@@ -9,8 +9,7 @@ import numpy as np
 
 from hydroelastic.modal.beam.added_mass import deep_open_added_mass, shallow_added_mass, strip_added_mass
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
-from hydroelastic.modal.beam.grammel import beam_quotients
-from hydroelastic.modal.beam.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.beam.grammel import beam_quotients, best_term, one_term_root, term_tones
 from hydroelastic.modal.beam.rayleigh import rayleigh, rayleigh_dry_mode, rayleigh_lid, rayleigh_pressure_release
 from hydroelastic.modal.estimate import (
     Estimate,

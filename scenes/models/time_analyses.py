@@ -118,7 +118,7 @@ class RandomWaves(SceneModel):
     def components(self) -> Iterator[RegularWave]:
         """The regular waves."""
         # SciPy's quadrature is slow to import.
-        from hydroelastic.physics.wave_components import wave_components
+        from hydroelastic.physics.irregular_waves import wave_components
         from hydroelastic.physics.wave_spectrum import PeakedSpectrum
 
         enhancement = self.peak_enhancement if self.waves == "jonswap" else 1.0

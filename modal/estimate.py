@@ -57,22 +57,6 @@ def added_mass_from_frequency(beam: FloatingBeam, omega: float) -> float:
     return beam.first_dry_stiffness / omega**2 - beam.mass_per_length
 
 
-def paper_equivalent_mass(beam: FloatingBeam, omega: float) -> float:
-    """Return the paper's μ* = μ₀ ω₀²/ω², kg/m², with the dry frequency ω₀ and without hydrostatics.
-
-    With hydrostatics it can fall below the beam's own mass; `added_mass_from_frequency` is the sound definition.
-
-    Args:
-        omega: frequency of the wet tone, rad/s, positive.
-
-    Source: "On the liquid added mass under the oscillations of the elastic rod floating on the aquatorium surface",
-    Bauman Moscow State Technical University, 2018 (in Russian).
-    """
-    _check_omega(omega)
-    bending = beam.first_dry_stiffness - beam.hydrostatic_stiffness
-    return bending / omega**2
-
-
 def frequency_from_added_mass(beam: FloatingBeam, added_mass: float) -> float:
     """Return ω = √((EI κ₁⁴ + s ρ g)/(m + m_a)), rad/s, for an added mass in kg/m²."""
     return math.sqrt(beam.first_dry_stiffness / (beam.mass_per_length + added_mass))

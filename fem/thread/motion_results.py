@@ -24,15 +24,6 @@ class StepHistory:
     tensions: NDArray[np.float64]  # at the nodes at `ends`, N, shape (n + 1, nodes); as the reactions just after breaks
     solutions: NDArray[np.int64]  # linear systems of each step, shape (n,)
 
-    @property
-    def imbalance(self) -> NDArray[np.float64]:
-        """Change of the energy less the work of all forces, in each step, J, shape (n,).
-
-        With the midpoint rule it is rounding.
-        """
-        growth: NDArray[np.float64] = np.diff(self.energies.sum(axis=1)) - self.work.sum(axis=1)
-        return growth
-
 
 @dataclass(frozen=True, kw_only=True)
 class Slack:

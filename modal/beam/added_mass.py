@@ -121,16 +121,6 @@ def deep_open_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     return deep_open_constant(index) * beam.density * beam.length
 
 
-def rigid_heave_added_mass(density: float, length: float) -> float:
-    """Return π/8 ρ l, kg/m²: heave of a flat plate of length l (m), deep water, no walls, ψ = 0 around it."""
-    return math.pi / 8 * density * length
-
-
-def rigid_pitch_added_inertia(density: float, length: float) -> float:
-    """Return π/256 ρ l⁴, kg·m (per metre of width): pitch w = x − x_c of the same plate."""
-    return math.pi / 256 * density * length**4
-
-
 def shallow_constant(index: int = 2) -> float:
     """Return s = σ b (σ b − 2)/b⁴ in m_a = s ρ l²/H for H ≪ l with ψ = 0 around the beam: 0.024578 for mode 1.
 

@@ -120,17 +120,6 @@ class FloatingBeam:
             hydrostatic=self.hydrostatic,
         )
 
-    def dry_angular_frequencies(self, count: int) -> FloatArray:
-        """Return the in-vacuo bending frequencies ω_j = (κ_j l)² √(EI/m)/l², rad/s.
-
-        Args:
-            count: how many, j = 1 … count.
-
-        Returns:
-            Angular frequencies, rad/s, shape (count,).
-        """
-        return free_free_roots(count) ** 2 * math.sqrt(self.flexural_rigidity / self.mass_per_length) / self.length**2
-
     def dry_stiffnesses(self, count: int) -> FloatArray:
         """Return EI κ⁴ + s ρ g of heave, pitch and the elastic shapes, per unit ∫W² dz.
 

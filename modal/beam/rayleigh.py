@@ -42,25 +42,6 @@ def rayleigh_lid(beam: FloatingBeam) -> Estimate:
     )
 
 
-def rayleigh_pressure_release_dry_mode(beam: FloatingBeam) -> Estimate:
-    """Return the estimate with dry mode 1 alone and ψ = 0 around the beam; without recoil it bounds nothing.
-
-    Returns:
-        The estimate; without a number if the beam covers the tank or a gap is too narrow.
-
-    Source: theory of the aquarium, docs, § 2 (psi0).
-    """
-    note = (
-        "Dry mode 1 alone, ψ = 0 around the beam: neglects gravity waves, recoil of the rigid body and the change of "
-        "shape."
-    )
-    try:
-        added_mass = pressure_release_added_mass(beam, RIGID_SHAPES + 1)[2, 2]
-    except NoEstimateError as reason:
-        return without_number(note, str(reason))
-    return _from_added_mass(beam, float(added_mass), note, False)
-
-
 def rayleigh_pressure_release(beam: FloatingBeam) -> Estimate:
     """Return the three-shape Ritz estimate (heave, pitch, dry mode 1) with ψ = 0 around the beam.
 

@@ -66,12 +66,3 @@ def thin_float_stiffness(profile: Profile, density_below: float, density_above: 
         gravity: g, m/s².
     """
     return 2 * profile.half_width * (density_below - density_above) * gravity
-
-
-def thin_float_frequency(profile: Profile, density_below: float, density_above: float, gravity: float) -> float:
-    """Return Ω = √(c/(m + a_∞)), rad/s, of the float with the mass of the displaced liquids.
-
-    Arguments as in `thin_float_stiffness`. Waves damp the motion, and shift its frequency in the second order of τ.
-    """
-    reduced_gravity = gravity * (density_below - density_above) / (density_below + density_above)
-    return math.sqrt(thin_constants(profile).frequency_squared * reduced_gravity / profile.half_height)

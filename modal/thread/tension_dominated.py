@@ -114,27 +114,6 @@ def _left_out(terms: list[FloatArray], order: int, small: float) -> float:
     return float(np.linalg.norm(following, axis=1).max())
 
 
-def pulled_up_in_uniform_stream(
-    weight: float, normal_load: float, length: float, pull: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the place of B, and N at A, of a thread that is pulled straight up by a large force in a uniform stream.
-
-    x_B = Rₙ L²/(2B) + w Rₙ L³/(3B²) + O(B⁻³), z_B = L − Rₙ² L³/(6B²) + O(B⁻³),
-    N_A = (Rₙ L, B − wL − Rₙ² L²/(2B)) + O(B⁻²), without tangential drag.
-
-    Args:
-        weight: w, N/m.
-        normal_load: Rₙ = kₙ U|U|, N/m, along x.
-        length: L, m.
-        pull: B, N.
-    """
-    if not math.hypot(weight, normal_load) * length < _LARGEST * pull:
-        raise NoAsymptoticError(f"the load on the length is not below {_LARGEST} of the pull, {pull} N")
-    first, second = normal_load * length / pull, weight * length / pull
-    place = length * np.array([first / 2 + second * first / 3, 0.0, 1 - first**2 / 6])
-    return place, pull * np.array([first, 0.0, 1 - second - first**2 / 2])
-
-
 class PanelQuadrature:
     """Gauss's nodes between knots, and integrals from the first knot to all of them, exact for degree 9."""
 

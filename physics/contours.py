@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 Array: TypeAlias = NDArray[np.floating[Any]]
 Curve: TypeAlias = Callable[[Array], Array]
@@ -114,7 +115,6 @@ def root(value: Callable[[float], float], first: float, last: float) -> float:
     """Return where a function of one variable changes its sign, to rounding of the interval."""
     # Next to a root at 0 the function's own rounding would keep a merely relative tolerance from being met.
     tolerance = 1e-17 * (last - first)
-    from scipy.optimize import brentq  # slow to import, so only when used
 
     return float(brentq(value, first, last, xtol=tolerance, rtol=4.0 * float(np.finfo(float).eps), maxiter=1000))
 

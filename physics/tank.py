@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
-    # Contours need SciPy's root finders, whose import is slow, and most tanks have no float.
-    from hydroelastic.physics.floats import RigidFloat
     from hydroelastic.physics.hulls import Hull
 
 Top: TypeAlias = Literal["free", "rigid", "pressure_release"]
@@ -213,7 +212,6 @@ class Tank:
         """The rigid floats, for theories of floats alone, by their index among the bodies."""
         if not self.hulls:
             return {}
-        from hydroelastic.physics.floats import RigidFloat
 
         return {index: body for index, body in enumerate(self.bodies) if isinstance(body, RigidFloat)}
 

@@ -16,6 +16,7 @@ from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
+from hydroelastic.fem.open_water.orders import solve_by_order
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.fem.open_water.radiation_memory import Memory, WaterMemory, solve_memory
@@ -143,8 +144,6 @@ def _solved(problem: OpenWaterProblem, request: Request, memory: Memory) -> _Sol
     if isinstance(request, SpectrumRequest):
         return solve_spectrum(problem, request)
     if problem.tank.geometry.is_revolved:
-        from hydroelastic.fem.open_water.orders import solve_by_order
-
         return solve_by_order(problem, request, memory)
     match request:
         case RadiationRequest():

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from numpy.typing import NDArray
 
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
+from hydroelastic.modal.beam.jointed_modes import jointed_modes
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
@@ -136,20 +137,14 @@ class _AtLastPoints:
 
 def uniform_mass_modes(beam: Beam, count: int) -> JointedModes:
     """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
-    return _jointed_modes(beam.with_uniform_mass(), count)
-
-
-def _jointed_modes(beam: Beam, count: int) -> JointedModes:
-    from hydroelastic.modal.beam.jointed_modes import jointed_modes  # SciPy's linear algebra is slow to import
-
-    return jointed_modes(beam, count)
+    return jointed_modes(beam.with_uniform_mass(), count)
 
 
 def first_dry_eigenvalue(beam: Beam) -> float:
     """λ of the first elastic mode of a beam in vacuum."""
     if not beam.is_uniform:
         rigid = 2 + len(beam.hinges)
-        return float(_jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
+        return float(jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
     shapes = beam_shapes(beam, 3)
     first = shapes.dofs.index(FIRST_ELASTIC)
     return float(shapes.bending[first] / shapes.mass[first, first])

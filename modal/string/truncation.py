@@ -22,6 +22,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import fftconvolve
 from scipy.special import erfc
 
 from hydroelastic.modal.string.modes import free_motion_jumps
@@ -152,7 +153,6 @@ class _Tail:
     ) -> NDArray[np.float64]:
         """Return the same for many starts, by a table of cells in time: no less than the largest value in each cell."""
         # A fifth of a second to import, which all that imports hydroelastic.modal would pay.
-        from scipy.signal import fftconvolve
 
         low, high = -2.0, max(float(arrivals.max(initial=0.0)), float(starts[-1])) + 2
         per_unit = int(min(CELLS_PER_UNIT * self.terms, max(16, MOST_CELLS / (high - low))))

@@ -12,6 +12,7 @@ from hydroelastic.scenes.models.bodies import MOST_BODIES, Beam, Float, Shape
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
+from hydroelastic.scenes.models.floats import float_contour
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import azimuthal_orders_can_be_solved, drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
@@ -155,7 +156,6 @@ def _span(body: AnyBody, scene: SeaScene) -> tuple[float, float]:
     if not isinstance(body, AnyFloat):
         return body.start, body.end
     # Contours need SciPy, whose import is slow.
-    from hydroelastic.scenes.models.floats import float_contour
 
     try:
         left, right = float_contour(body, scene.folder).bounds[:2]

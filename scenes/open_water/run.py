@@ -12,6 +12,7 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.decay import DriftingFloatError, UnstableFloatError
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
+from hydroelastic.fem.open_water.plan_waves import plan_waves
 from hydroelastic.fem.open_water.solve import solve_open_water
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
@@ -23,6 +24,7 @@ from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
 from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
 from hydroelastic.output.hydrodynamic_files.whole_bodies import bodies_of_tables
 from hydroelastic.output.open_water.files import write_open_csv
+from hydroelastic.output.open_water.plan_pictures import draw_plan_waves
 from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.open_water.tables import open_cost, open_sections
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
@@ -70,8 +72,6 @@ def _sample(solution: OpenSolution, _summary: Reading) -> SampledWater:
 
 
 def _plans(problem: OpenWaterProblem, solution: OpenSolution) -> tuple[PlanWaves, ...]:
-    from hydroelastic.fem.open_water.plan_waves import plan_waves
-
     return tuple(waves for number, one in enumerate(solution.response, 1) for waves in plan_waves(problem, one, number))
 
 
@@ -90,7 +90,6 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
     report("pictures of fields")
     draw_fields(water.fields, folder, options)
     if water.plans:
-        from hydroelastic.output.open_water.plan_pictures import draw_plan_waves
         from hydroelastic.output.open_water.wave_views import draw_wave_view
 
         for waves in water.plans:

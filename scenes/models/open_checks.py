@@ -121,8 +121,6 @@ def azimuthal_orders_can_be_solved(scene: TankParts) -> Iterator[InitErrorDetail
     scattered = [(index, one) for index, one in enumerate(scene.analysis) if isinstance(one, Response | Spectrum)]
     if not scene.is_revolved or not scattered:
         return
-    # These need SciPy, which is slow to import.
-
     water = physical_tank(scene)
     layers, radius = two_layers(water), max(right for _, right in (body.waterplane for body in water.bodies))
 

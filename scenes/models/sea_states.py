@@ -84,8 +84,6 @@ class Spectrum(SparseModel):
     @property
     def spectrum(self) -> WaveSpectrum:
         """The spectrum."""
-        # SciPy's quadrature is slow to import.
-
         if self.waves == "table":
             return TabulatedSpectrum(omega=self.omega, values=self.density)
         assert self.significant_height is not None

@@ -119,8 +119,6 @@ class RandomWaves(SceneModel):
     @property
     def components(self) -> Iterator[RegularWave]:
         """The regular waves."""
-        # SciPy's quadrature is slow to import.
-
         enhancement = self.peak_enhancement if self.waves == "jonswap" else 1.0
         spectrum = PeakedSpectrum(height=self.significant_height, period=self.peak_period, enhancement=enhancement)
         for omega, amplitude, phase in zip(*wave_components(spectrum, self.number, self.seed), strict=True):

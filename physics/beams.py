@@ -14,8 +14,7 @@ import numpy as np
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level
 from hydroelastic.physics.scales import Scales
 
 SAME_PLACE = 1e-9

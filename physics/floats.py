@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof, Turn
+from hydroelastic.physics.dofs import PLACES, Dof, Level, Motion, Turn
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import Hydrostatics
-from hydroelastic.physics.motions import PLACES, Level, Motion
 from hydroelastic.physics.scales import Scales
 
 

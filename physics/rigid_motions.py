@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level
 from hydroelastic.physics.tank import Tank
 
 

@@ -8,8 +8,7 @@ from math import inf, isfinite
 
 from hydroelastic.physics.beam_parts import Section, StretchedSection
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof, Turn
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level, Turn
 from hydroelastic.physics.scales import Scales
 
 LOWEST_BENT = 2

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.dofs import Level
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.geometry import PLANE, Geometry
-from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:

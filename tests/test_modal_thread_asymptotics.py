@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from thread_cases import CASES, inputs, load_of, tolerance, worst_difference
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.critical import critical_line
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
 from hydroelastic.modal.thread.march import march_back
+from hydroelastic.modal.thread.shape import NoAsymptoticError
 from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream, VeeringStream
 from hydroelastic.physics.thread_load import ThreadLoad

@@ -13,13 +13,18 @@ import numpy as np
 
 from hydroelastic.fem.kept_tolerance import excess, kept_tolerance
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
-from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.orders import solve_by_order
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.radiation_memory import Memory, WaterMemory, solve_memory
+from hydroelastic.fem.open_water.radiation_memory import (
+    ImpulseResponseSolution,
+    Memory,
+    WaterMemory,
+    solve_impulse_response,
+    solve_memory,
+)
 from hydroelastic.fem.open_water.requests import (
     OVER_TIME,
     DecayRequest,

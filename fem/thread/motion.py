@@ -10,8 +10,7 @@ import numpy as np
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space, interpolate_part
-from hydroelastic.fem.thread.force_scale import force_scale
+from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, force_scale, in_space, interpolate_part
 from hydroelastic.fem.thread.forms import ThreadForms
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError, VectorOfTime
 from hydroelastic.fem.thread.motion_results import SLACK, StepHistory, ThreadMotion, at_step_ends, find_slack

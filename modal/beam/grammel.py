@@ -13,9 +13,8 @@ from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.gravity_added_mass import MOST_NODES, wetted_shapes
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.beam.surface_operator import surface_operator
-from hydroelastic.modal.beam.tone_pencil import TonePencil, Tones, solve_tones
+from hydroelastic.modal.beam.tone_pencil import TonePencil, Tones, pencil_modes, solve_tones
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.symmetric_pencil import pencil_modes
 from hydroelastic.physics.arrays import FloatArray
 
 _SHAPES = 24

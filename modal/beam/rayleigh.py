@@ -11,7 +11,7 @@ from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.gravity_added_mass import gravity_tones
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
-from hydroelastic.modal.beam.tone_pencil import Tones
+from hydroelastic.modal.beam.tone_pencil import Tones, pencil_modes
 from hydroelastic.modal.estimate import (
     Estimate,
     NoEstimateError,
@@ -19,7 +19,6 @@ from hydroelastic.modal.estimate import (
     frequency_from_added_mass,
     without_number,
 )
-from hydroelastic.modal.symmetric_pencil import pencil_modes
 
 
 def rayleigh_lid(beam: FloatingBeam) -> Estimate:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.modal.symmetric_pencil import pencil_modes
 from hydroelastic.physics.arrays import FloatArray
 
 
@@ -94,3 +93,18 @@ def _volume_free(volume: FloatArray) -> FloatArray:
     reflector[pivot] += np.copysign(1.0, normal[pivot])
     householder = np.eye(len(volume)) - 2 * np.outer(reflector, reflector) / (reflector @ reflector)
     return np.delete(householder, pivot, axis=1)
+
+
+def pencil_modes(matrix: FloatArray, positive: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return λ and v of A v = λ B v: with B = L Lᵀ those of L⁻¹ A L⁻ᵀ.
+
+    Args:
+        matrix: A, symmetric, shape (n, n).
+        positive: B, symmetric positive definite, shape (n, n).
+
+    Returns:
+        λ, ascending, shape (n,), and the v as columns, vᵀBv = 1, shape (n, n).
+    """
+    factor = np.linalg.cholesky(positive)
+    eigenvalues, vectors = np.linalg.eigh(np.linalg.solve(factor, np.linalg.solve(factor, matrix).T))
+    return eigenvalues, np.linalg.solve(factor.T, vectors)

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.modal.thread.shape import NoAsymptoticError, NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread_load import UP, ThreadLoad

@@ -10,9 +10,8 @@ from typing import Any, Literal, TypeAlias
 
 from numpy.typing import NDArray
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.library_warnings import suppressed_library_warnings
-from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.modal.thread.shape import NoAsymptoticError, NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread import Thread
 

@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
 from hydroelastic.modal.thread.estimate import (
     Found,
@@ -26,6 +25,7 @@ from hydroelastic.modal.thread.modes import (
     sagging_cable_frequencies,
     tensioned_beam_frequencies,
 )
+from hydroelastic.modal.thread.shape import NoAsymptoticError
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread

@@ -10,7 +10,6 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import root_scalar
 
-from hydroelastic.modal.thread.asymptotics import AsymptoticThread
 from hydroelastic.modal.thread.critical import critical_line
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
 from hydroelastic.modal.thread.estimate import (
@@ -20,7 +19,7 @@ from hydroelastic.modal.thread.estimate import (
     require,
     require_bare_thread,
 )
-from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.shape import AsymptoticThread, ThreadShape
 from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream

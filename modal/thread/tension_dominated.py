@@ -8,8 +8,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike
 
-from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.shape import AsymptoticThread, NoAsymptoticError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread_load import ThreadLoad
 

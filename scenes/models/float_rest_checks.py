@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.motions import PLACES
+from hydroelastic.physics.dofs import PLACES
 from hydroelastic.physics.point_contours import closed_polyline, gap_between
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
 from hydroelastic.scenes.models.float_checks import SMALLEST_GAP, Box, extents

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.contours import Contour
+from hydroelastic.physics.dofs import PLACES, Level
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics, still_level
-from hydroelastic.physics.motions import PLACES, Level
 from hydroelastic.physics.point_contours import outline_contour, polygon_contour
 from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, float_profile, profile_contour
 from hydroelastic.physics.revolution import SolidOfRevolution

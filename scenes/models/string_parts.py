@@ -18,8 +18,7 @@ from hydroelastic.physics.string import HangingString as PhysicalString
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
-from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, ascending_values, kind_of
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, Title, ascending_values, kind_of
 
 MOST_POSITIONS, MOST_TIMES = 100_000, 1_000_000
 DEFAULT_POSITIONS = 101

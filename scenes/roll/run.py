@@ -20,10 +20,8 @@ from hydroelastic.output.roll.tables import roll_cost, roll_sections
 from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.problems import require_fit
-from hydroelastic.scenes.models.roll import RollScene
-from hydroelastic.scenes.models.roll_checks import motion_can_be_followed, rates_are_comparable
-from hydroelastic.scenes.roll.physics import rolling_ship, wave_train
-from hydroelastic.scenes.roll.results import RollResult
+from hydroelastic.scenes.models.roll import RollScene, motion_can_be_followed, rates_are_comparable
+from hydroelastic.scenes.roll.physics import RollResult, rolling_ship, wave_train
 from hydroelastic.scenes.roll.section_file import solved_section
 from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.validation_errors import scene_error

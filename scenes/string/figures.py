@@ -14,8 +14,9 @@ from hydroelastic.output.pictures.colours import BLUE, diverging_colours
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, curve_style, label_axes, sequence_colours
 from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
+from hydroelastic.scenes.models.string_parts import DEFAULT_POSITIONS, DEFAULT_TIMES
 from hydroelastic.scenes.string.results import StringResult
+from hydroelastic.scenes.string.solve import solve_series
 
 if TYPE_CHECKING:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -41,6 +42,12 @@ HEIGHT = "height above the free end, m"
 
 _MOTION_FRAMES = 60
 _ANIMATION_DPI = 80
+
+# Numbers of times and of positions from which a motion and a shape are drawn smooth.
+_ENOUGH_TIMES = 61
+_ENOUGH_POSITIONS = 61
+# Positions and times at which the fronts of a step are lines and no stairs.
+_OF_FRONTS = (301, 801)
 
 
 def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> None:
@@ -201,3 +208,41 @@ def _frames(
             end.set_data([solution.displacement[-1, column]], [solution.positions[-1]])
             title.set_text(f"t = {solution.times[column]:.4g} s")
             yield canvas
+
+
+def drawn_solution(result: StringResult) -> StringSolution:
+    """Return the same motion at more positions and times, including the requested ones.
+
+    A series is summed again. A field solution is drawn as it is, since computing it again is expensive.
+    """
+    scene, solution = result.scene, result.solution
+    few_positions = len(solution.positions) < _ENOUGH_POSITIONS
+    few_times = len(solution.times) < _ENOUGH_TIMES
+    jumps = scene.motion.kind == "step" and solution.times[-1] > 0.0
+    if scene.method != "series" or not (few_positions or few_times or jumps):
+        return solution
+    positions, times = solution.positions, solution.times
+    heights, instants = _OF_FRONTS if jumps else (DEFAULT_POSITIONS, DEFAULT_TIMES)
+    if few_positions or jumps:
+        positions = np.union1d(positions, scene.string.length * np.linspace(0.0, 1.0, heights) ** 2)
+    if few_times or jumps:
+        times = np.union1d(times, np.linspace(0.0, times[-1], instants))
+    return solve_series(scene, positions, times)
+
+
+def columns_of(solution: StringSolution, times: Floats) -> list[int]:
+    """Return the columns of a solution that are nearest to times, each once and in their order."""
+    return sorted({int(np.argmin(np.abs(solution.times - time))) for time in times})
+
+
+def animation_notes(result: StringResult) -> tuple[str, ...]:
+    """Return why there is no animation, or only a coarse one, and the key to set."""
+    solution = result.solution
+    if solution.times[-1] == 0.0:
+        return ('the string is not animated: give [output] key "times" times after 0',)
+    if result.scene.method != "series" and len(solution.times) < _ENOUGH_TIMES:
+        return (
+            f"the animation has {len(solution.times)} pages only, one for each time of the field solution: give "
+            f'[output] key "times" {_ENOUGH_TIMES} or more',
+        )
+    return ()

@@ -15,8 +15,7 @@ from hydroelastic.output.string.quantities import HANGING_STRING
 from hydroelastic.output.string.tables import string_cost, string_sections
 from hydroelastic.output.variables import array_variables, grid_columns
 from hydroelastic.scenes.staged_run import StagedRun
-from hydroelastic.scenes.string.drawn import animation_notes
-from hydroelastic.scenes.string.figures import draw_string
+from hydroelastic.scenes.string.figures import animation_notes, draw_string
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_string
 

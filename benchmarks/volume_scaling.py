@@ -14,6 +14,7 @@ the others.
 from __future__ import annotations
 
 import csv
+import gc
 import json
 import subprocess
 import sys
@@ -28,11 +29,12 @@ import ufl
 from dolfinx import fem, la
 from dolfinx.mesh import create_box, entities_to_geometry, locate_entities_boundary
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from hydroelastic.benchmarks.peers import peer_folder
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import LiquidSpace, closed_layer, liquid_space
-from hydroelastic.fem.memory import peak_memory, release_matrices
+from hydroelastic.fem.progress import peak_memory
 from hydroelastic.fem.shape_loads import surface_load
 from hydroelastic.fem.volume.matrices import volume_laplace
 from hydroelastic.fem.volume.multigrid import MultigridSolver
@@ -126,7 +128,8 @@ def measured(
     own, row = tank.mesh.comm, dict(zip(COLUMNS, values, strict=True))
     del solver, load, potential, laplace
     # They would count in the next size.
-    release_matrices(own)
+    gc.collect()
+    PETSc.garbage_cleanup(own)
     return row
 
 

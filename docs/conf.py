@@ -27,10 +27,7 @@ include_patterns = [
     "results/README.md",
     "results/shipped/README.md",
     # Named, because what a run writes lies beside them.
-    *(
-        f"results/{name}/*.md"
-        for name in ("benchmarks", "float_cases", "hard_cases", "level_cases", "start_up", "thread_cases")
-    ),
+    *(f"results/{name}/*.md" for name in ("benchmarks", "float_cases", "hard_cases", "level_cases", "thread_cases")),
 ]
 
 html_theme = "furo"

@@ -36,7 +36,8 @@ def page(kind: Group) -> str:
                 "Written by `docs/results_reference.py` from the quantities declared in `output/`. Keys are those of "
                 "`summary.json`, a point before a key for each level of tables around it; a table along a dimension is "
                 "a list, or a dictionary by names; rows without a key are arrays that only `dataset.nc` has, with "
-                "their dimensions. A key that is `null` has no value.",
+                "their dimensions. A key that is `null` has no value. Values with † depend on the mesh or the machine: "
+                "only their presence is promised.",
                 "",
                 reference_table(kind),
                 "",

@@ -28,9 +28,7 @@ class ClosedSolution(Generic[_Tank]):
         tolerance: requested relative error of the frequencies.
         count: number of requested modes.
         counted: whether an independent count confirms that no mode is missing.
-        attempts: number of resolutions that were solved.
         reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
-        seconds: time by stage, s.
     """
 
     physical: _Tank
@@ -38,9 +36,7 @@ class ClosedSolution(Generic[_Tank]):
     tolerance: float
     count: int
     counted: bool
-    attempts: int
     reasons: tuple[str, ...]
-    seconds: dict[str, float]
 
     @property
     def units(self) -> Scales:

@@ -54,7 +54,6 @@ class DenseSolution:
         displacements: returns ζ of some of them, shape (n, modes).
         energies: returns the shares of some in the potential energy: body unknowns one by one, then each surface, shape
             (shares, modes).
-        iterations: restarts of the eigen-solver.
     """
 
     inverses: np.ndarray
@@ -62,7 +61,6 @@ class DenseSolution:
     amplitudes: np.ndarray
     displacements: Callable[[slice], np.ndarray]
     energies: Callable[[slice], np.ndarray]
-    iterations: int = 1
 
 
 class DenseModes:

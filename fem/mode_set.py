@@ -57,8 +57,6 @@ class ModeSet:
         zero_modes: how many motions without stiffness exist (not reported as modes).
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: number of converged eigenpairs.
-        iterations: restarts of the Krylov–Schur method; LAPACK counts as one.
-        solves: solutions of Laplace's equation; those of a known answer are counted too.
         eigenvectors: of all modes that SLEPc found, motions without stiffness left out.
         bounds: of the relative error of each λ by the eigen-solver; ``None`` where it is rounding.
     """
@@ -69,8 +67,6 @@ class ModeSet:
     completed: Callable[[int], Mode]
     zero_modes: int
     converged: int
-    iterations: int
-    solves: int
     growing: tuple[Mode, ...] = ()
     eigenvectors: tuple[PETSc.Vec, ...] = ()
     bounds: np.ndarray | None = None

@@ -51,7 +51,6 @@ def solve_modes(
     kinetics = CondensedKinetics(pencil)
     available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - kinetics.negative
     count = min(count, available)
-    before = pencil.solver.solves
     if count == 0:
         return _no_modes(pencil, kinetics, tolerance)
     solver = krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
@@ -82,8 +81,6 @@ def solve_modes(
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=converged,
-        iterations=solver.getIterationNumber(),
-        solves=pencil.solver.solves - before if pencil.answer is None else pencil.size,
         growing=_growing(pencil, kinetics, tolerance),
         eigenvectors=tuple(displacements),
     )
@@ -111,9 +108,7 @@ def _answered_modes(
 def _dense_solution(dense: DenseModes, count: int, tolerance: float) -> tuple[DenseSolution, int]:
     """The whole problem, and the number of modes that are not lost in rounding."""
     operator = dense.operator()
-    inverses, vectors, iterations = (
-        _largest(operator, count, tolerance) if count else (np.empty(0), np.empty((len(operator), 0)), 0)
-    )
+    inverses, vectors = _largest(operator, count, tolerance) if count else (np.empty(0), np.empty((len(operator), 0)))
     count = min(count, _visible(inverses)) if count else 0
     found = dense.completed(1.0 / inverses[:count], vectors[:, :count])
     return DenseSolution(
@@ -122,7 +117,6 @@ def _dense_solution(dense: DenseModes, count: int, tolerance: float) -> tuple[De
         amplitudes=dense.amplitudes(found),
         displacements=partial(dense.displacements, found),
         energies=partial(dense.energies, found),
-        iterations=iterations,
     ), count
 
 
@@ -162,8 +156,6 @@ def _mode_set(
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=count,
-        iterations=found.iterations,
-        solves=pencil.size,
     )
 
 
@@ -172,12 +164,11 @@ def _filled(vector: PETSc.Vec, values: np.ndarray) -> PETSc.Vec:
     return vector
 
 
-def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
-    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts. Of a small one
-    LAPACK finds all."""
+def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """The largest eigenvalues of a dense matrix, descending, and their vectors; of a small one LAPACK finds all."""
     if len(operator) <= FEW:
         inverses, columns = np.linalg.eigh(operator)
-        return inverses[::-1], columns[:, ::-1], 1
+        return inverses[::-1], columns[:, ::-1]
     from slepc4py import SLEPc
 
     matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
@@ -194,7 +185,7 @@ def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.nda
     for number in order:
         solver.getEigenvector(int(number), vector)
         found.append(vector.array_r.copy())
-    return inverses[order], np.array(found).T, solver.getIterationNumber()
+    return inverses[order], np.array(found).T
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
@@ -210,8 +201,6 @@ def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: flo
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=0,
-        iterations=0,
-        solves=0,
         growing=_growing(pencil, kinetics, tolerance),
     )
 

@@ -19,8 +19,8 @@ from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.modes import completed_mode
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report
 
 # Vectors of the basis for each mode, beyond which it does not converge.
 _MOST_VECTORS = 12
@@ -106,7 +106,7 @@ def refined_modes(
     limits = np.full(count, residual)
     if beyond:
         limits[-1] = max(residual, min(_OF_BEYOND * residual, _MOST_OF_BEYOND))
-    fresh, steps = approximate, 0
+    fresh = approximate
     while True:
         known = len(basis.vectors)
         for vector in fresh:
@@ -116,7 +116,7 @@ def refined_modes(
         residuals, norms = zip(
             *(basis.residual(value, column) for value, column in zip(values, columns.T, strict=True)), strict=True
         )
-        steps, sizes = steps + 1, np.array(norms)
+        sizes = np.array(norms)
         some = min(count, len(values))
         missing = np.flatnonzero(sizes[:some] > limits[:some] * values[:some])
         largest = float((sizes[:some] / values[:some]).max())
@@ -127,11 +127,11 @@ def refined_modes(
         if len(basis.vectors) in (known, _MOST_VECTORS * count) or len(basis.vectors) > _MOST_VECTORS * count:
             raise EigenSolverError(f"{len(missing)} of {count} modes did not converge to {residual:g}")
         fresh = [residuals[place] for place in missing]
-    found = _as_modes(basis, values[:count], columns[:, :count], before)
-    return replace(found, iterations=steps, bounds=residual_bounds(values, sizes)[:count])
+    found = _as_modes(basis, values[:count], columns[:, :count])
+    return replace(found, bounds=residual_bounds(values, sizes)[:count])
 
 
-def _as_modes(basis: _Basis, values: np.ndarray, columns: np.ndarray, before: int) -> ModeSet:
+def _as_modes(basis: _Basis, values: np.ndarray, columns: np.ndarray) -> ModeSet:
     pencil, eigenvalues = basis.pencil, 1.0 / values
     # Unit generalized mass: ζᵀKζ = λ.
     columns = columns * np.sqrt(eigenvalues)
@@ -155,8 +155,6 @@ def _as_modes(basis: _Basis, values: np.ndarray, columns: np.ndarray, before: in
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=len(eigenvalues),
-        iterations=1,
-        solves=pencil.solver.solves - before,
         eigenvectors=tuple(displacements),
     )
 

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
+from numpy.polynomial.chebyshev import chebpts2, chebvander
 from numpy.typing import NDArray
 
 from hydroelastic.fem.cells import cell_corners, cell_jacobians, cell_positions, owned_cells
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.physics.contours import POINTS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +37,7 @@ class LiquidSample:
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceTrace:
-    """ψ of several modes along a named surface, facet by facet from left to right.
+    """ψ of several modes at Chebyshev's points of the facets of a named surface, from left to right.
 
     At a slit that crosses the surface ψ has two values, each of which belongs to the facet on its side.
 
@@ -48,15 +50,18 @@ class SurfaceTrace:
     potential: NDArray[np.float64]
 
     def between(self, start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The part of the surface from x = start to x = end, both of which are ends of facets."""
+        """`POINTS` places from x = start to x = end, both of which are ends of facets, and ψ there."""
         middle = 0.5 * (self.x[:, 0] + self.x[:, -1])
         inside = (middle > start) & (middle < end)
-        x, potential = self.x[inside], self.potential[:, inside]
-        # Facets that meet share their end point.
-        return (
-            np.concatenate([x[:1, 0], x[:, 1:].ravel()]),
-            np.hstack([potential[:, :1, 0], potential[:, :, 1:].reshape(len(potential), -1)]),
+        nodes, potential = self.x[inside], self.potential[:, inside]
+        x: NDArray[np.float64] = np.linspace(start, end, POINTS, dtype=np.float64)
+        facets = np.maximum(np.searchsorted(nodes[:, 0], x, side="right") - 1, 0)
+        left, right = nodes[facets, 0], nodes[facets, -1]
+        degree = nodes.shape[1] - 1
+        basis = chebvander(2.0 * (x - left) / (right - left) - 1.0, degree) @ np.linalg.inv(
+            chebvander(chebpts2(degree + 1), degree)
         )
+        return x, np.einsum("mxk,xk->mx", potential[:, facets], basis)
 
 
 def sample_liquid(
@@ -136,9 +141,9 @@ def _subdivided_triangle(level: int) -> tuple[np.ndarray, np.ndarray]:
 def sample_surface(
     liquid: LiquidSpace, functions: list[fem.Function], name: str, layer: int = 0
 ) -> SurfaceTrace | None:
-    """ψ along a named line, at equal steps in each facet."""
-    count = 2 * liquid.degree + 1
-    local = np.linspace(0.0, 1.0, count)[:, None]
+    """ψ along a named line."""
+    count = liquid.degree + 1
+    local = 0.5 * (1.0 + chebpts2(count))[:, None]
     x: list[np.ndarray] = [np.empty((0, count))]
     values: list[np.ndarray] = [np.empty((len(functions), 0, count))]
     for group in facet_groups(liquid, name, layer):

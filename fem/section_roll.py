@@ -25,8 +25,8 @@ from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radia
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
 from hydroelastic.fem.open_water.resonance import solve_resonance
 from hydroelastic.fem.open_water.results import RadiationTable
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.physics.dofs import MOTIONS
@@ -80,7 +80,7 @@ def section_roll(
 ) -> SectionRoll:
     """Solve for the roll of a section (collective)."""
     if tank.is_open:
-        problem = OpenWaterProblem(comm=comm, tank=tank, tolerance=tolerance, watch=Stopwatch())
+        problem = OpenWaterProblem(comm=comm, tank=tank, tolerance=tolerance)
         return _in_open_water(problem, title)
     return _in_a_tank(solve_tank(tank, tolerance=tolerance, modes=modes, comm=comm, mesh=mesh, report=report), title)
 

@@ -14,12 +14,10 @@ from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
-from hydroelastic.physics.contours import Arc, Contour
+from hydroelastic.physics.contours import POINTS, points_along
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.tank import StillLevel, Tank
 
-_BEAM_POINTS = 201
-_ARC_POINTS = 64
 # Both ends of a beam move alike in modes of a symmetric tank: relative difference of what counts as equal.
 _EQUAL = 1e-9
 # What moves less than this part of the waves moves by rounding, and is not to choose the sign of a mode.
@@ -114,7 +112,7 @@ def sign_of(bodies: BodyShapes, waves: tuple[SurfaceCurve, ...]) -> float:
 
 def _displaced_beam(tank: Tank, index: int, body: Body, amplitudes: Array) -> SurfaceCurve:
     piece, level = tank.piece_of(index), tank.level_of(index)
-    x: Array = np.linspace(piece.start, piece.end, _BEAM_POINTS, dtype=np.float64)
+    x: Array = np.linspace(piece.start, piece.end, POINTS, dtype=np.float64)
     points = np.vstack([x, np.full_like(x, level.height)])
     upwards = np.vstack([np.zeros_like(x), np.ones_like(x)])
     displacement = amplitudes @ body.shapes(points, upwards)
@@ -126,7 +124,7 @@ def _displaced_float(body: RigidFloat, amplitudes: Array) -> tuple[FloatSection,
 
     The contour's points say nothing of the sign: by roll, some rise as far as others sink.
     """
-    contour = contour_points(body.hull.contour)
+    contour = points_along(body.hull.contour.arcs)
     moved = [
         amplitude * body.displacement(motion, contour.T)
         for motion, amplitude in zip(body.motions, amplitudes, strict=True)
@@ -136,15 +134,3 @@ def _displaced_float(body: RigidFloat, amplitudes: Array) -> tuple[FloatSection,
     displacement = np.sum(moved, axis=0).T
     section = FloatSection(contour=contour, displacement=displacement, waterplane=body.waterplane, slit=slit)
     return section, largest_of(sizes)
-
-
-def contour_points(contour: Contour) -> Array:
-    """Corners of a polygon along a contour, the first not repeated, shape (points, 2)."""
-    return np.concatenate([_arc_points(arc)[:-1] for arc in contour.arcs])
-
-
-def _arc_points(arc: Arc) -> np.ndarray:
-    edges = np.array([0.0, *arc.knots, 1.0])
-    steps = max(_ARC_POINTS // (len(edges) - 1), 4)
-    at = np.unique(np.linspace(edges[:-1], edges[1:], steps + 1))
-    return arc.point(at)

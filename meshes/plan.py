@@ -8,7 +8,6 @@ for layers thinner than the sagitta of their arcs would else fold.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import pi, sqrt
 
 import numpy as np
@@ -18,6 +17,7 @@ from hydroelastic.meshes.curved_cells import geometry_element, smallest_jacobian
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.plan_bands import Band, bands_around
 from hydroelastic.meshes.plan_faces import faces_between, filled
+from hydroelastic.meshes.plan_grid import are_rectangles, grid_mesh
 from hydroelastic.meshes.plan_loops import (
     RATIO,
     UNGRADED,
@@ -48,13 +48,15 @@ def plan_mesh(
     wall: PlanRegion,
     plates: tuple[PlanRegion, ...],
     *,
-    size: Callable[[str], float],
+    size: float,
     layers: int,
     thickness: float,
     geometry_degree: int,
     mirrors: Mirrors = (None, None),
 ) -> TaggedMesh:
     """Triangulate a plan."""
+    if are_rectangles(wall, plates):
+        return grid_mesh(wall, plates, size=size, layers=layers, thickness=thickness, mirrors=mirrors)
     covered = any(plate.outside is wall.outside for plate in plates)
     edges, walls = edges_of(wall, plates), wall.loops
     thick = min(thickness, room_between(walls, edges))
@@ -64,7 +66,7 @@ def plan_mesh(
     bands: list[Band] = []
 
     def add(loop: Loop, inside: str, outside: str, *, is_wall: bool) -> None:
-        largest = min(size(name) for name in (inside, outside) if name)
+        largest = size
         if isinstance(loop, CircleLoop) and not covered:
             # In what a gap leaves between bands cells are long: an arc leaves its chord at half the angle at which
             # such a cell's next side does.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -122,46 +121,39 @@ def _area(corners: NDArray[np.float64]) -> float:
 
 
 def filled(
-    found: Faces, size: Callable[[str], float], corners: NDArray[np.float64]
+    found: Faces, size: float, corners: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], list[NDArray[np.int64]]]:
     """Return all nodes, and gmsh's triangles of each face; in a model of gmsh's."""
     geo = gmsh.model.geo
     points, tags = found.points, dict[int, int]()
     lines: dict[tuple[int, int], int] = {}
-    largest: dict[tuple[int, int], float] = {}
 
-    def loop_of(nodes: NDArray[np.int64], biggest: float) -> int:
+    def loop_of(nodes: NDArray[np.int64]) -> int:
         curves = []
         for pair in zip(map(int, nodes), map(int, np.roll(nodes, -1)), strict=True):
             for node in pair:
                 if node not in tags:
                     tags[node] = int(geo.addPoint(*points[node], 0.0))
             lines[pair] = int(geo.addLine(tags[pair[0]], tags[pair[1]]))
-            if pair in found.divided:
-                largest[1, lines[pair]] = biggest
-            else:
+            if pair not in found.divided:
                 geo.mesh.setTransfiniteCurve(lines[pair], 2)
             curves.append(lines[pair])
         return int(geo.addCurveLoop(curves))
 
     surfaces = []
     for face in found.faces:
-        biggest = size(face.name)
-        curves = [loop_of(nodes, biggest) for nodes in (face.outside, *face.inside)]
-        surfaces.append(int(geo.addPlaneSurface(curves)))
-        largest[2, surfaces[-1]] = biggest
+        surfaces.append(int(geo.addPlaneSurface([loop_of(nodes) for nodes in (face.outside, *face.inside)])))
     geo.synchronize()
     for option, value in (("FromPoints", 0), ("ExtendFromBoundary", 1), ("FromCurvature", 0)):
         gmsh.option.setNumber(f"Mesh.MeshSize{option}", value)
     gmsh.option.setNumber("Mesh.Algorithm", 6)
 
-    def wanted(dim: int, tag: int, x: float, y: float, _z: float, boundary: float) -> float:
-        biggest = largest.get((dim, tag), max(largest.values()))
-        near = biggest
+    def wanted(_dim: int, _tag: int, x: float, y: float, _z: float, boundary: float) -> float:
+        near = size
         if len(corners):
             distance = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).min())
             near = max(_CORNER_GROWTH * distance, 1e-9)
-        return min(boundary, biggest, near)
+        return min(boundary, size, near)
 
     gmsh.model.mesh.setSizeCallback(wanted)
     with interrupts_deferred():

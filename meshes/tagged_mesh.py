@@ -17,6 +17,20 @@ class MisplacedError(MeshError):
     """Parts of a tank that do not fit together as they are given."""
 
 
+class TooManyCellsError(MeshError):
+    """More cells than are to be made; `cells` by their sizes."""
+
+    def __init__(self, cells: float, most: float) -> None:
+        super().__init__(cells, most)
+        self.cells, self.most = round(cells), most
+
+    def __str__(self) -> str:
+        return (
+            f"about {self.cells:.1g} tetrahedra are needed, and {self.most:.1g} can be made: cells are as small as "
+            "the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow over a large depth"
+        )
+
+
 FARTHEST = 1e30
 """Largest coordinate that files may have, m: products of several are still numbers."""
 

@@ -27,7 +27,7 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
-from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, TooManyCellsError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
@@ -52,6 +52,10 @@ MIRRORS = ("mirror_x", "mirror_y")
 """Names of the planes of symmetry, by the axis that is normal to them."""
 CELLS_OF_A_CUBE = 8.5
 """Tetrahedra of the size of a cube's edge in it, measured."""
+CELLS_OF_EDGES = 37.0
+"""Cells that grow from edges of plates with the size h there, over their length over h; measured."""
+MOST_CELLS = 3e6
+"""That gmsh makes, on one process and with a gigabyte for each million."""
 
 # Growth of the size of cells per distance from an edge.
 _GROWTH = 0.6
@@ -61,8 +65,6 @@ _SAMPLES = 200
 _LEAST_CURVED = 0.2
 # Part of the area of a plate that may lie elsewhere.
 _LEVEL = 1e-7
-# That gmsh makes, on one process and with a gigabyte for each million.
-_MOST_CELLS = 3e6
 # Thickness of a liquid over the size of the cells, below which gmsh may not end.
 _THINNEST = 1e-2
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
@@ -104,8 +106,10 @@ class VolumeSizes:
         return replace(self, edge=times * self.edge, bulk=times * self.bulk, around=around)
 
 
-def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None)) -> VolumeMesh:
-    """Mesh a dimensionless tank, on the calling process only."""
+def volume_mesh(
+    tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None), most: float = MOST_CELLS
+) -> VolumeMesh:
+    """Mesh a dimensionless tank, of at most so many cells by gmsh, on the calling process only."""
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
         return mesh_of_file(tank.plan)
     bed = depth_over(tank)
@@ -120,7 +124,8 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             # Meshes that are cut open are not refined.
             surfaces = {} if {BAFFLE, INTERFACE} & set(faces.values()) else _surfaces(apart)
             sizes, faces = (sizes.coarse, apart) if surfaces else (replace(sizes, refinements=0), faces)
-        _require_few(parts.volume / sizes.bulk**3)
+        if (cells := _cells(tank, sizes, parts, edges)) > most:
+            raise TooManyCellsError(cells, MOST_CELLS)
         _set_sizes(tank, sizes, edges)
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
@@ -224,14 +229,21 @@ def _require_thick(tank: VolumeTank, sizes: VolumeSizes) -> None:
         raise MeshError("one of the liquids is so thin that its cells would be flat: leave it out, or make it thicker")
 
 
-def _require_few(cubes: float) -> None:
-    """Refuse a mesh that gmsh, on one process, would not end in sensible time and memory, of so many cubes of its
-    size."""
-    if cubes * CELLS_OF_A_CUBE > _MOST_CELLS:
-        raise MeshError(
-            f"about {cubes * CELLS_OF_A_CUBE:.1g} tetrahedra would be needed, and {_MOST_CELLS:.1g} can be made: the "
-            "cells are as small as the liquid is shallow, or as its waves are short"
-        )
+def _cells(tank: VolumeTank, sizes: VolumeSizes, parts: _Parts, edges: set[int]) -> float:
+    """Return about the number of cells that gmsh will make: in the liquid, at curved walls, in gaps, at edges."""
+    cubes = parts.volume / sizes.bulk**3
+    smallest = _smallest(tank, sizes)
+    for tag in parts.faces:
+        if gmsh.model.getType(2, tag) not in ("Plane", "Discrete surface"):
+            middle = np.mean(gmsh.model.getParametrizationBounds(2, tag), axis=0)
+            curvature = max(gmsh.model.getCurvature(2, tag, middle))
+            size = max(2.0 * pi / (sizes.around * max(curvature, 1e-9)), smallest)
+            if size < sizes.bulk:
+                cubes += gmsh.model.occ.getMass(2, tag) / size**2
+    # ∫2πr/(s + gr)³ dr, over the depth.
+    cubes += sum(pi * tank.depth / (GROWTH**2 * size) for _, size in _gaps(tank, sizes))
+    lengths = sum(gmsh.model.occ.getMass(1, edge) for edge in edges) if sizes.edge < sizes.bulk else 0.0
+    return CELLS_OF_A_CUBE * cubes + CELLS_OF_EDGES * lengths / sizes.edge
 
 
 def _surfaces(faces: dict[int, str]) -> dict[tuple[str, ...], Surface]:
@@ -307,14 +319,22 @@ def _least_radius(solid: SolidFloat) -> float:
     return min([0.5 * min(solid.size), *(r for r, z in solid.outline if r > 0.0 and z <= 0.0)])
 
 
+def _gaps(tank: VolumeTank, sizes: VolumeSizes) -> list[tuple[tuple[float, float], float]]:
+    return [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
+
+
+def _smallest(tank: VolumeTank, sizes: VolumeSizes) -> float:
+    """Size below which curvature, which is unbounded at the tip of a cone, asks for nothing."""
+    around = [_least_radius(solid) for solid in tank.floats if solid.shape != "box"]
+    around += [one.radius for one in tank.columns if isinstance(one, Disc)]
+    small = [2.0 * pi * radius / sizes.around for radius in around] + [size for _, size in _gaps(tank, sizes)]
+    return min([sizes.edge, _LEAST_CURVED * sizes.bulk, *small])
+
+
 def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
     mesh = gmsh.model.mesh
-    around = [2.0 * pi * _least_radius(solid) / sizes.around for solid in tank.floats if solid.shape != "box"]
-    gaps = [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
-    around += [2.0 * pi * one.radius / sizes.around for one in tank.columns if isinstance(one, Disc)]
-    around += [size for _, size in gaps]
     fields = []
-    for (x, y), size in gaps:
+    for (x, y), size in _gaps(tank, sizes):
         fields.append(mesh.field.add("MathEval"))
         mesh.field.setString(fields[-1], "F", f"{size} + {GROWTH} * sqrt((x - ({x}))^2 + (y - ({y}))^2)")
     if edges and sizes.edge < sizes.bulk:
@@ -334,8 +354,7 @@ def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
         mesh.field.setAsBackgroundMesh(smallest)
     for option, value in {
         "MeshSizeMax": sizes.bulk,
-        # Curvature is unbounded at the tip of a cone.
-        "MeshSizeMin": min([sizes.edge, _LEAST_CURVED * sizes.bulk, *around]),
+        "MeshSizeMin": _smallest(tank, sizes),
         "MeshSizeFromPoints": 0,
         "MeshSizeExtendFromBoundary": 0,
         "MeshSizeFromCurvature": sizes.around,

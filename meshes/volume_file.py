@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -107,12 +109,26 @@ def readable_by_gmsh(file: Path) -> Iterator[str]:
             raise MeshError(broken) from error
 
 
+# In OpenCASCADE a broken file may end the process: one that is read for the first time is read in another one before.
+_READ = (
+    "import gmsh, sys; gmsh.initialize(readConfigFiles=False, interruptible=False); "
+    "gmsh.model.occ.importShapes(sys.argv[1]); gmsh.model.occ.synchronize()"
+)
+_READ_BEFORE: set[bytes] = set()
+
+
 def solids_in(file: Path, metres: float) -> _Entities:
     """Read the solids of a file into the current model, in a unit of length."""
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / metres)
     try:
         with readable_by_gmsh(file) as copy:
+            content = Path(copy).read_bytes()
+            if content not in _READ_BEFORE:
+                subprocess.run(
+                    [sys.executable, "-c", _READ, copy], check=True, capture_output=True, cwd=Path(copy).parent
+                )
+                _READ_BEFORE.add(content)
             return [one for one in gmsh.model.occ.importShapes(copy) if one[0] == 3]
     finally:
         gmsh.option.setNumber("Geometry.OCCScaling", 1.0)

@@ -1,4 +1,8 @@
-"""Result folders, written atomically; files that no run wrote are kept."""
+"""Result folders, written atomically; files that no run wrote are kept.
+
+The files that a run wrote are listed in its ``summary.json``, which is written last: what was modified later is not
+its own.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +16,12 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.meshes.interrupts import unfinished
 from hydroelastic.output.json_values import json_ready
-from hydroelastic.output.manifest import MANIFEST, Manifest, file_names, read_manifest, write_manifest
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -40,7 +44,60 @@ class FolderError(Exception):
         self.wrong, self.folder, self.remedy = wrong, folder, remedy
 
 
-def check_output(path: str | Path) -> Manifest | None:
+@dataclass(frozen=True, kw_only=True)
+class Written:
+    """What an earlier run wrote into a result folder: the only files that a later run may replace.
+
+    Attributes:
+        scene_file: relative to the folder, so that both may be moved together; empty where the scene came from Python.
+        files: paths relative to the folder.
+        time: at which the last one was written, ns.
+    """
+
+    scene_file: str = ""
+    files: tuple[str, ...] = ()
+    time: int = 0
+
+    def has(self, folder: Path, name: str) -> bool:
+        """Return whether a file of the folder was written by that run and not modified since."""
+        path = folder / name
+        is_listed = name in self.files and path.is_file() and not path.is_symlink()
+        return name == SUMMARY or (is_listed and path.stat().st_mtime_ns <= self.time)
+
+    def path_of_scene(self, folder: Path) -> Path | None:
+        """Return the absolute path of the scene file; ``None`` where the scene came from Python."""
+        return Path(os.path.normpath(folder.resolve() / self.scene_file)) if self.scene_file else None
+
+
+def written_by_run(folder: Path) -> Written | None:
+    """Return what an earlier run wrote into a folder; ``None`` if there is no such folder or list."""
+    try:
+        found = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        scene_file, files, time = found["scene_file"], found["files"], (folder / SUMMARY).stat().st_mtime_ns
+    except (OSError, ValueError, TypeError, LookupError):
+        return None
+    if not (isinstance(scene_file, str) and isinstance(files, list)):
+        return None
+    return Written(scene_file=scene_file, files=tuple(files), time=time)
+
+
+def list_files(folder: Path, *, scene_file: Path | None, place: Path) -> None:
+    """List all files of a folder, which will lie at a place, in its ``summary.json``."""
+    summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8")) if (folder / SUMMARY).is_file() else {}
+    scene = "" if scene_file is None else os.path.relpath(os.path.realpath(scene_file), place)
+    write_summary({**summary, "scene_file": scene, "files": _file_names(folder)}, folder)
+
+
+def _file_names(folder: Path) -> list[str]:
+    """All files and links below a folder, as paths relative to it."""
+    names = []
+    for place, folders, files in os.walk(folder):
+        links = [name for name in folders if os.path.islink(os.path.join(place, name))]
+        names += [os.path.relpath(os.path.join(place, name), folder) for name in (*files, *links)]
+    return sorted(names)
+
+
+def check_output(path: str | Path) -> Written | None:
     """Check, before solving, that a result folder can be written; leaves no files.
 
     Temporary folders of killed runs beside the folder are removed.
@@ -58,7 +115,7 @@ def check_output(path: str | Path) -> Manifest | None:
             aside.rmdir()
     except OSError as error:
         raise _unwritable(path, error) from error
-    return read_manifest(target)
+    return written_by_run(target)
 
 
 @contextmanager
@@ -66,7 +123,7 @@ def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterat
     """Provide a folder to write into; when the block ends without an error it becomes ``path``, else it is removed.
 
     The folder is made beside ``path``, so that moving it is a renaming within one file system. Files that a previous
-    run listed and that are unchanged are replaced only then. All other files in ``path`` are kept; where the
+    run wrote and that were not modified are replaced only then. All other files in ``path`` are kept; where the
     new results have a file of that name, it gets the ending ``.kept``. Exceptions, Ctrl-C and the signals that end a
     job remove what was written. Under MPI only one rank may enter.
     """
@@ -77,7 +134,7 @@ def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterat
         target.parent.mkdir(parents=True, exist_ok=True)
         with _aside(target) as aside:
             yield aside
-            write_manifest(aside, scene_file=scene_file, place=target)
+            list_files(aside, scene_file=scene_file, place=target)
             _refuse_occupied(target)
             _move_in(aside, target)
     except BaseException as error:
@@ -136,10 +193,10 @@ def _refuse_occupied(target: Path) -> None:
             raise _refused(target, "it is the current folder or above it", "Name a folder in it")
         if os.path.ismount(target):
             raise _refused(target, "it is a mount point and cannot be replaced", "Name a folder in it")
-        if any(target.iterdir()) and read_manifest(target) is None:
+        if any(target.iterdir()) and written_by_run(target) is None:
             raise _refused(
                 target,
-                f"it is not empty and not a result folder: it lacks {MANIFEST}, the list of files of a run",
+                f"it is not empty and not a result folder: no {SUMMARY} lists files of a run",
                 "Name another folder or empty this one",
             )
     elif os.path.lexists(target):
@@ -154,9 +211,9 @@ def _move_in(aside: Path, target: Path) -> None:
     if not target.exists():
         aside.rename(target)
         return
-    earlier = read_manifest(target) or Manifest(scene="", files={})
-    found = file_names(target)
-    _keep([name for name in found if not earlier.is_own(target, name)], target, aside)
+    earlier = written_by_run(target) or Written()
+    found = _file_names(target)
+    _keep([name for name in found if not earlier.has(target, name)], target, aside)
     # Between both moves a killed process leaves the old folder under this name, and the next run takes it back.
     previous = aside.with_suffix(".previous")
     os.replace(target, previous)
@@ -166,7 +223,7 @@ def _move_in(aside: Path, target: Path) -> None:
         os.replace(previous, target)
         raise
     # Files created since the listing are in the old folder.
-    _keep(sorted(set(file_names(previous)) - set(found)), previous, target)
+    _keep(sorted(set(_file_names(previous)) - set(found)), previous, target)
     shutil.rmtree(previous, ignore_errors=True)
 
 
@@ -194,8 +251,8 @@ def _link(source: Path, target: Path) -> None:
 
 def results_message(folder: Path, *, replaces: bool) -> str:
     """Return the message about the place of results: earlier files that were replaced, and those that are kept."""
-    listed = read_manifest(folder)
-    kept = [] if listed is None else sorted(set(file_names(folder)) - listed.files.keys() - {MANIFEST})
+    listed = written_by_run(folder)
+    kept = [] if listed is None else sorted(set(_file_names(folder)) - {*listed.files, SUMMARY})
     said = ["replacing earlier ones"] * replaces
     if kept:
         more = f" and {len(kept) - MOST_KEPT_NAMED} more" if len(kept) > MOST_KEPT_NAMED else ""

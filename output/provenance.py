@@ -30,11 +30,13 @@ OF_ALL_SCENES = Group(
     (
         SCENE := Quantity("scene", "the scene as read, with its defaults and overrides", variable=""),
         STATUS := Quantity("status", '`"ok"` or `"unconverged"`', variable=""),
+        Quantity("scene_file", "scene file relative to the folder", note='`""` without one', variable=""),
+        Quantity("files", "files that the run wrote there", dimensions=("file",), variable=""),
         REASONS := Quantity("reasons", "reasons why the tolerance is not reached", dimensions=("reason",)),
         WARNINGS := Quantity("warnings", "what the model leaves out and these results show", dimensions=("warning",)),
-        TIMING := Quantity("timing", "wall-clock time of a stage", "s", dimensions=("stage",)),
-        MEMORY_PEAK := Quantity("memory_peak", "largest memory of all processes together", "byte"),
-        VERSIONS := Quantity("versions", "version of a package", dimensions=("package",)),
+        SECONDS := Quantity("seconds", "wall-clock time of the whole", "s", contract=False),
+        MEMORY_PEAK := Quantity("memory_peak", "largest memory of all processes together", "byte", contract=False),
+        VERSIONS := Quantity("versions", "version of a package", dimensions=("package",), contract=False),
     ),
 )
 """Quantities that `summarize` adds."""
@@ -96,9 +98,8 @@ def warnings_of(summary: Summary) -> tuple[str, ...]:
 
 
 def spent(summary: Reading, memory: str = "") -> str:
-    """Return seconds by stage and memory, the end of the line on the cost of a solution."""
-    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary[TIMING].items() if value >= 0.005)
-    return f"; seconds: {seconds or 'less than 0.01'}; peak memory {summary[MEMORY_PEAK] / 2**20:.0f} MiB{memory}."
+    """Return seconds and memory, the end of the line on the cost of a solution."""
+    return f"; seconds: {summary[SECONDS]:.2f}; peak memory {summary[MEMORY_PEAK] / 2**20:.0f} MiB{memory}."
 
 
 class Solved(Protocol):
@@ -108,14 +109,10 @@ class Solved(Protocol):
     def reasons(self) -> Sequence[str]:
         """Reasons why the requested accuracy is not reached; empty if it is."""
 
-    @property
-    def seconds(self) -> dict[str, float]:
-        """Time by stage."""
-
     # A solution may have `warnings` too: sentences on what the model leaves out and its results show.
 
 
-def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_seconds: float = 0.0) -> Summary:
+def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], seconds: float = 0.0) -> Summary:
     """Return the content of ``summary.json`` (collective: peak memory is summed over processes)."""
     return {
         SCENE.key: scene,
@@ -123,7 +120,7 @@ def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_se
         REASONS.key: list(solution.reasons),
         WARNINGS.key: list(getattr(solution, "warnings", ())),
         **kind.evaluated(solution),
-        TIMING.key: {"import": import_seconds, **solution.seconds},
+        SECONDS.key: seconds,
         MEMORY_PEAK.key: memory_of_processes(_all_processes()),
         VERSIONS.key: versions(),
     }

@@ -48,6 +48,7 @@ class Quantity:
         phase: what its phase is relative to, for ``dataset.nc``.
         is_coordinate: whether it tells places of other arrays without being one of their dimensions.
         column: name of its columns in CSV files, if it is not the key, before the labels of its further dimensions.
+        contract: whether its value is promised; where it depends on the mesh or the machine only its presence is.
     """
 
     key: str
@@ -70,6 +71,7 @@ class Quantity:
     phase: str = ""
     is_coordinate: bool = False
     column: str | None = None
+    contract: bool = True
 
     def of(self, record: Any) -> Any:
         """Return the value of a record."""
@@ -141,6 +143,7 @@ class Group:
             a single record.
         prefix: of the names of its variables in ``dataset.nc``; by default its key behind the prefix around it.
         note: for the reference of keys.
+        contract: whether the values within are promised, unless a quantity says otherwise.
     """
 
     key: str
@@ -151,6 +154,7 @@ class Group:
     dimension: str = ""
     prefix: str | None = None
     note: str = ""
+    contract: bool = True
 
     def __getitem__(self, key: str) -> Any:
         """Return the part of a key."""
@@ -222,7 +226,7 @@ class Group:
         self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
     ) -> Iterator[tuple[str, str, tuple[str, ...], Quantity | Group]]:
         """Yield each part within with its place."""
-        for part in self.parts:
+        for part in self.parts if self.contract else [replace(part, contract=False) for part in self.parts]:
             inner, name = f"{place}.{part.key}".lstrip("."), part.name_behind(prefix)
             if isinstance(part, Group):
                 along = (*dimensions, part.dimension) if part.dimension else dimensions

@@ -52,12 +52,13 @@ def reference_table(kind: Group) -> str:
     rows: list[Row] = []
     for place, name, dimensions, part in kind.places():
         level = place.count(".")
-        key = "· " * level + f"`{part.key}`"
+        key = "· " * level + f"`{part.key}`" + ("" if part.contract else " †")
         if isinstance(part, Group):
             what = f"{part.meaning}; along `{part.dimension}`" if part.dimension else part.meaning
             rows.append((key, "", "", _noted(what, part.note), ""))
             continue
         variable = f"`{name}`" + (f" ({', '.join(dimensions)})" if dimensions else "") if name else ""
+        variable += " †" if name and not (part.contract or part.in_summary) else ""
         rows.append(
             (key if part.in_summary else "", part.symbol, part.unit_text, _noted(part.meaning, part.note), variable)
         )

@@ -6,14 +6,15 @@ import shutil
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack, suppress
 from pathlib import Path
+from time import perf_counter
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.pictures.rendering import NoRendererError
-from hydroelastic.output.provenance import TIMING, Summary, read_summary
+from hydroelastic.output.provenance import SECONDS, Summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.variables import Variable
 
@@ -36,7 +37,7 @@ def write_results(
     parts: Callable[[Path], None] | None = None,
 ) -> tuple[str, ...]:
     """Write a result folder on rank 0 (collective)."""
-    comm, watch = MPI.COMM_WORLD, Stopwatch()
+    comm, start = MPI.COMM_WORLD, perf_counter()
     problem: BaseException | None = None
     warnings: list[str] = []
     # Others than rank 0 wait for the folder until it is there, or will not be.
@@ -50,31 +51,29 @@ def write_results(
     elif comm.rank == 0:
         try:
             with result_folder(out, scene_file=scene_file) as folder, ExitStack() as drawing:
-                with watch.stage("write"):
-                    report("tables")
-                    tables(folder)
-                    labelled = arrays()
-                    if parts is not None:
-                        comm.bcast(folder)
-                        wait = False
-                        parts(folder)
+                report("tables")
+                tables(folder)
+                labelled = arrays()
+                if parts is not None:
+                    comm.bcast(folder)
+                    wait = False
+                    parts(folder)
                 if pictures is not None:
-                    with watch.stage("draw"):
-                        report("pictures")
-                        (folder / "images").mkdir()
-                        from hydroelastic.output.pictures.page import saving  # needs matplotlib
+                    report("pictures")
+                    (folder / "images").mkdir()
+                    from hydroelastic.output.pictures.page import saving  # needs matplotlib
 
-                        drawing.enter_context(saving())
-                        try:
-                            pictures(folder / "images")
-                        except NoRendererError as error:
-                            drawing.close()
-                            shutil.rmtree(folder / "images")
-                            warnings.append(f"no images: {error}")
-                read_summary(summary)[TIMING].update(watch.seconds)
+                    drawing.enter_context(saving())
+                    try:
+                        pictures(folder / "images")
+                    except NoRendererError as error:
+                        drawing.close()
+                        shutil.rmtree(folder / "images")
+                        warnings.append(f"no images: {error}")
+                summary[SECONDS.key] += perf_counter() - start
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
-                # The dataset contains the summary, which by now has the seconds of all stages except this one.
+                # The dataset contains the summary, which by now has the seconds of all but this.
                 variables = complete_variables(labelled, summary, kind)
                 write_dataset(folder / DATASET, variables, {**global_attributes(summary), **attributes})
                 # The last page is written beside the dataset.

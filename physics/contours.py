@@ -151,6 +151,20 @@ def straight_arc(start: Point, end: Point) -> Arc:
     )
 
 
+POINTS = 201
+"""Points along each piece of a sampled curve."""
+
+
+def points_along(arcs: Iterable[Arc]) -> NDArray[np.float64]:
+    """Return points along arcs that meet, shape (points, 2); the end of each is left out, it is where the next begins.
+
+    A chain that is open lacks its last end.
+    """
+    even = np.linspace(0.0, 1.0, POINTS, dtype=np.float64)
+    points = [arc.point(np.union1d(even, arc.knots)[:-1]) for arc in arcs]
+    return np.asarray(np.concatenate(points), dtype=np.float64)
+
+
 def turn_between(before: Arc, after: Arc) -> float:
     """Return the angle by which the direction turns anticlockwise from one arc to the next, in −π … π."""
     ux, uy = before.velocity(np.array([1.0]))[0]

@@ -2,7 +2,7 @@
 
     ./hydro python results/page_tables.py
 
-Run it after `./hydro bench`, for docs/speed_against_error.md, and after results/start_up.py and
+Run it after `./hydro bench`, for docs/speed_against_error.md, and after
 results/start_up_shares.py, for docs/performance.md.
 It replaces what stands between the marks of each table on a page, and nothing else.
 """
@@ -19,8 +19,7 @@ from hydroelastic.benchmarks.page import milliseconds, table
 
 ROOT = Path(__file__).parent.parent
 BENCHMARKS = ROOT / "results" / "benchmarks"
-START_UP = ROOT / "results" / "start_up" / "start_up.csv"
-SHARES = START_UP.with_name("shares.csv")
+SHARES = ROOT / "results" / "start_up" / "shares.csv"
 
 # MoorPy's last digits are exact; logarithms are taken.
 _LEAST_ERROR = 1e-16
@@ -158,14 +157,6 @@ def machines_text() -> str:
     return "\n".join(lines)
 
 
-def start_up_text() -> str:
-    """The Markdown of what a run costs, stage by stage; what imports cost by library is left to the CSV file."""
-    with START_UP.open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if not row["stage"].startswith("import of")]
-    seconds = [[f"{float(row[column]):.2f}" for column in ("cold_seconds", "warm_seconds")] for row in rows]
-    return table(["stage", "cold", "warm"], [[row["stage"], *both] for row, both in zip(rows, seconds, strict=True)])
-
-
 def shares_text() -> str:
     """The Markdown of whole runs beside the import of libraries."""
     with SHARES.open(encoding="utf-8", newline="") as file:
@@ -179,7 +170,6 @@ def pages() -> dict[Path, str]:
     tables = {
         "speed_against_error.md": {"the pages in results/benchmarks": machines_text(), **benchmarks},
         "performance.md": {
-            "results/start_up/start_up.csv": start_up_text(),
             "results/start_up/shares.csv": shares_text(),
         },
     }

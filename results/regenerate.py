@@ -21,7 +21,6 @@ import numpy as np
 from PIL import Image
 
 from hydroelastic.output.folder import SUMMARY
-from hydroelastic.output.manifest import MANIFEST
 from hydroelastic.output.markdown import markdown_table, markdown_text
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.page import save
@@ -87,7 +86,7 @@ def regenerate(name: str) -> str:
         with tempfile.TemporaryDirectory() as scratch:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
-                if file.name not in (SUMMARY, MANIFEST):
+                if file.name != SUMMARY:
                     (keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 
@@ -114,13 +113,11 @@ def keep_picture(source: Path, target: Path) -> None:
 
 def index() -> str:
     """Return a page that lists all shipped scenes, as their stored summaries have them."""
-    headings = ("scene", "title", "kind", "status", "seconds", "of which files and pictures", "pictures")
+    headings = ("scene", "title", "kind", "status", "seconds", "pictures")
     rows = []
     for shipped in shipped_scenes():
         folder = SHIPPED / shipped.name
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-        seconds = summary["timing"]
-        written = sum(seconds.get(stage, 0.0) for stage in ("sample", "write", "draw"))
         pictures = ", ".join(f"[{path.stem}]({shipped.name}/{path.name})" for path in sorted(folder.glob("*.png")))
         rows.append(
             (
@@ -128,8 +125,7 @@ def index() -> str:
                 markdown_text(shipped.title),
                 summary["scene"]["kind"],
                 summary["status"],
-                f"{sum(seconds.values()):.1f}",
-                f"{written:.1f}",
+                f"{summary['seconds']:.1f}",
                 pictures,
             )
         )

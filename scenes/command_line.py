@@ -18,8 +18,7 @@ from typing import Any, NoReturn
 import click
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
-from hydroelastic.output.folder import results_message
-from hydroelastic.output.manifest import read_manifest
+from hydroelastic.output.folder import results_message, written_by_run
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.output.provenance import warnings_of
 from hydroelastic.scenes.command_options import (
@@ -258,7 +257,7 @@ def study(
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
     folder = folder_of_results(scene, out, suffix="_study")
-    replaces = read_manifest(folder) is not None
+    replaces = written_by_run(folder) is not None
     with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
         from hydroelastic.scenes.study.result import measured_study
 

@@ -29,7 +29,7 @@ def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path
     folder = out if out is not None else Path("results") / f"{stem}{suffix}"
     with folder_errors("--out"):
         earlier = check_output(folder)
-    other = earlier.scene_file(folder) if earlier is not None else None
+    other = earlier.path_of_scene(folder) if earlier is not None else None
     if other is None or other == file:
         return folder
     if out is None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -78,10 +79,13 @@ class SceneError(Exception):
         return "\n  ".join([heading, *shown])
 
 
-def cannot_be_meshed(error: Exception, file: str | Path | None = None) -> SceneError:
-    """Return the error of a scene whose liquid cannot be meshed."""
+def cannot_be_meshed(error: Exception, scene: Any) -> SceneError:
+    """Return the error of a scene whose liquid cannot be meshed, with the tables that shape it."""
+    tables = ("[tank]", "[[liquid]]", "[[baffle]]", "[[column]]", "[[body]]")
+    key = ", ".join(table for table in tables if getattr(scene, table.strip("[]"), None))
+    key = key.replace("[tank]", f"[{scene.kind}]")
     remedy = "Change the shapes, places or sizes that it comes from"
-    return SceneError(Problem(wrong=f"the liquid cannot be meshed: {error}", remedy=remedy), file=file)
+    return SceneError(Problem(key=key, wrong=f"the liquid cannot be meshed: {error}", remedy=remedy), file=scene.source)
 
 
 @contextmanager

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.kinds import runner_of

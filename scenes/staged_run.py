@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from time import perf_counter
 from typing import Any, Generic, TypeVar
 
 from mpi4py import MPI
 from pydantic import BaseModel
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.output.manifest import read_manifest
+from hydroelastic.fem.progress import Report
+from hydroelastic.output.folder import written_by_run
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.output.provenance import TIMING, Solved, Summary, read_summary, summarize
+from hydroelastic.output.provenance import SECONDS, Solved, Summary, read_summary, summarize
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.sections import Section, markdown_sections
@@ -95,20 +96,20 @@ class StagedRun(Generic[_Scene, _Solution]):
 
     def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
         """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
-        return self.outcome(scene, self.solve(scene, MPI.COMM_WORLD, report), import_seconds=import_seconds)
+        start = perf_counter()
+        solution = self.solve(scene, MPI.COMM_WORLD, report)
+        return self.outcome(scene, solution, seconds=import_seconds + perf_counter() - start)
 
-    def outcome(
-        self, scene: _Scene, solution: _Solution, *, tables: bool = True, import_seconds: float = 0.0
-    ) -> Outcome:
+    def outcome(self, scene: _Scene, solution: _Solution, *, tables: bool = True, seconds: float = 0.0) -> Outcome:
         """Return the outcome of a solution (collective)."""
-        summary = self.summarized(scene, solution, import_seconds)
+        summary = self.summarized(scene, solution, seconds)
         told = self.read(summary)
         sections = tuple(self.sections(solution, told)) if tables else ()
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(told))
 
-    def summarized(self, scene: _Scene, solution: _Solution, import_seconds: float = 0.0) -> Summary:
+    def summarized(self, scene: _Scene, solution: _Solution, seconds: float = 0.0) -> Summary:
         """Return the content of ``summary.json`` (collective)."""
-        return summarize(self.kind, solution, scene.model_dump(mode="json"), import_seconds)
+        return summarize(self.kind, solution, scene.model_dump(mode="json"), seconds)
 
     def read(self, summary: Summary) -> Reading:
         """Return a summary as sections read it."""
@@ -126,15 +127,12 @@ class StagedRun(Generic[_Scene, _Solution]):
     ) -> Outcome:
         """Write the result folder of a solved scene (collective). The arguments and errors are those of a call."""
         solution = outcome.solution
-        timing = {**self.read(outcome.summary)[TIMING]}
-        summary = {**outcome.summary, TIMING.key: timing}
+        summary, start = {**outcome.summary}, perf_counter()
         # Read before anything is written there.
-        replaces = read_manifest(out) is not None
-        watch = Stopwatch()
+        replaces = written_by_run(out) is not None
         report("fields")
-        with watch.stage("sample"):
-            sampled = self.sample(solution, self.read(summary))
-        timing.update(watch.seconds)
+        sampled = self.sample(solution, self.read(summary))
+        summary[SECONDS.key] += perf_counter() - start
         missing = self.sampling_warnings(sampled)
         if images is not None:
             missing += images.without_effect(self.used_options)

@@ -67,7 +67,6 @@ NOT_RUN = {
     "HYDROELASTIC_SUITE=trixie ./hydro python requirements/lock.py": "from the network",
     "./hydro exec python -m pip install jupyterlab": "from the network",
     "./hydro exec jupyter lab": "is not part of the environment",
-    "./hydro python results/start_up.py": MINUTES,
     "./hydro python results/hard_cases.py": MINUTES,
     "./hydro python results/float_cases.py": MINUTES,
     "./hydro python results/level_cases.py": MINUTES,

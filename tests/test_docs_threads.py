@@ -120,9 +120,9 @@ def test_examples_run_and_all_their_files_columns_and_arrays_are_told(text: str,
         assert f"`{file.read_text(encoding='utf-8').splitlines()[0].replace(',', ', ')}`" in row
     assert all(f"`{file.name}`" in RESULTS for file in folder.iterdir() if file.is_file())
     with xarray.open_dataset(folder / "dataset.nc") as dataset:
-        nodes = {name for name, array in dataset.data_vars.items() if "node" in array.dims}
-    assert nodes
-    assert {name for name in nodes if f"`{name}`" not in RESULTS} == set()
+        along = {name for name, array in dataset.data_vars.items() if {"node", "s"} & set(array.dims)}
+    assert along
+    assert {name for name in along if f"`{name}`" not in RESULTS} == set()
 
 
 def _changed(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

@@ -22,6 +22,7 @@ from open_cases import (
     hydrodynamic,
     numbered,
     radiation,
+    sea,
     section,
     slender,
     stored,
@@ -89,6 +90,15 @@ def test_circle_in_the_limits() -> None:
     still = table.excitation_force[0, 0] / (DENSITY * 9.81 * 2.0 * RADIUS)
     np.testing.assert_allclose(still[:, heave], 1.0, rtol=0, atol=1e-4)
     assert np.abs(still[:, sway]).max() < 1e-4
+
+
+def test_a_flat_plate_in_the_limit_of_high_frequency() -> None:
+    """π/8 ρl² in heave, and 3π/64 ρl² in a pitch of mean square 1: of half a plate in unbounded water."""
+    plate = {"length": 2.0, "flexural_rigidity": 1e6, "mass_per_length": 50.0}
+    table = radiation(sea(plate, tolerance=1e-8), math.inf)
+    exact = DENSITY * 4.0 * np.diag([math.pi / 8.0, 3.0 * math.pi / 64.0])
+    # Measured 4e-9 and 1e-8.
+    np.testing.assert_allclose(table.added_mass[0], exact, rtol=0, atol=2e-8 * exact[0, 0])
 
 
 @pytest.mark.slow

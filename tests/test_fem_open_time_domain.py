@@ -22,7 +22,6 @@ from hydroelastic.fem.open_water.requests import (
 )
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models import SeaScene, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.open_water.run import solve_open
@@ -42,7 +41,7 @@ def problem(depth: float) -> OpenWaterProblem:
         analysis=[],
     )
     tank = replace(physical_tank(scene), phase_at=CREST)
-    return OpenWaterProblem(comm=MPI.COMM_WORLD, tank=tank, tolerance=TOLERANCE, watch=Stopwatch())
+    return OpenWaterProblem(comm=MPI.COMM_WORLD, tank=tank, tolerance=TOLERANCE)
 
 
 @cache
@@ -85,7 +84,7 @@ def test_the_memory_of_water_that_sloshes_in_a_gap_gives_them_back_too() -> None
         body=[barge | {"position": x, "motions": ["heave"]} for x in (3.85, 6.15)],
         analysis=[],
     )
-    water = OpenWaterProblem(comm=MPI.COMM_WORLD, tank=physical_tank(scene), tolerance=TOLERANCE, watch=Stopwatch())
+    water = OpenWaterProblem(comm=MPI.COMM_WORLD, tank=physical_tank(scene), tolerance=TOLERANCE)
     memory = solve_memory(water, 20.0, 0)
     # Measured 3e-5, in the longest waves; of half of a resonance half of the peak is missed.
     assert memory.causality_error.max() < 2e-4

@@ -20,7 +20,6 @@ from hydroelastic.fem.open_water.model_building import first_resolution, open_mo
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.open_water.solver import OpenSolver
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.geometry import PLANE
 from hydroelastic.scenes.open_water.physics import open_water_problem
 
@@ -30,7 +29,7 @@ TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
 
 def problem_of(scene: Scene, comm: MPI.Comm = MPI.COMM_WORLD) -> OpenWaterProblem:
     read: Any = he.read(scene)
-    return open_water_problem(read, comm, Stopwatch())
+    return open_water_problem(read, comm)
 
 
 def model_of(scene: Scene, omega: float, angle: float | None = None) -> OpenModel:
@@ -117,7 +116,7 @@ def test_fluxes_of_waves_by_themselves(name: str, request: pytest.FixtureRequest
 def test_reduced_basis_meets_what_it_was_given(name: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(name)
     omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
-    solver = OpenSolver(model, Stopwatch())
+    solver = OpenSolver(model)
     solved = [solver.frequency(factor * omega) for factor in (0.9, 1.0, 1.1)]
     reduced = solver.frequency_between(omega)
     np.testing.assert_allclose(reduced[0].hydrodynamic, solved[1].hydrodynamic, rtol=0, atol=1e-11)
@@ -159,7 +158,7 @@ def test_how_the_sea_is_cut_changes_nothing(name: str, request: pytest.FixtureRe
     row = SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1]
     scene = section(row, 1e-5) if name == "rectangle" else two_liquids(row, 1e-5)
     other = model_of(scene, row["omega"], angle=0.8 * model.absorbing_layer.angle)
-    found, known = (OpenSolver(one, Stopwatch()).frequency(row["omega"]).hydrodynamic for one in (other, model))
+    found, known = (OpenSolver(one).frequency(row["omega"]).hydrodynamic for one in (other, model))
     assert np.abs(found - known).max() > 0.0
     # The tolerance.
     np.testing.assert_allclose(found, known, rtol=0, atol=1e-5 * np.abs(known).max())

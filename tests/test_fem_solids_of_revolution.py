@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 from open_cases import SLOW, TOO_SMALL, answer, complex_of, curves, hydrodynamic, in_dataset, sea
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import AAA, CubicSpline
 from scipy.special import h1vp, jvp
 from solid_references import GROUPS, compared
 from solids_at_sea import CASES, DENSITY, GRAVITY, MOTIONS, bodies_of, depth_of, radiation, resonance, response, solved
@@ -449,25 +449,26 @@ def test_a_float_between_two_liquids_radiates_what_it_loses() -> None:
     ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-4), ("hemisphere Ka", 1e-6), ("c1 Ka", 1e-5)]
 )
 def test_impulse_responses_give_the_references_back(name: str, tolerance: float) -> None:
-    """The water of the pool has resonances of widths down to 1e-9 without end."""
+    """By rational functions through the twenty frequencies that are told, whose poles are those of the water."""
     cases = [case for key, case in CASES.items() if key.startswith(name)]
     request = {"kind": "impulse_response", "times": [0.0, 1.0, 10.0]}
     (table,) = solved(bodies_of(cases[0]), depth_of(cases[0]), tolerance, request, motions=MOTIONS[:2]).impulse_response
     assert table.causality_error.max() < 0.1 * tolerance
     for place, motion in enumerate(MOTIONS[:2]):
         own = table.added_mass[:, place, place] + 1j * table.radiation_damping[:, place, place] / table.omega
-        between = CubicSpline(np.log(table.omega), own)
+        between = AAA(table.omega, own, rtol=1e-6)
         for values in (case["values"] for case in cases):
             omega = values["omega"]
-            # Waves shorter than those of the mesh, and longer than those that are checked.
-            if not table.omega[0] < omega < table.omega[-1]:
+            # Waves shorter than those of the mesh, longer than those that are told, and between resonances of the pool
+            # of widths down to 1e-9, of which there is no end above 5 rad/s.
+            if not table.omega[0] < omega < (5.0 if "moonpool" in name else table.omega[-1]):
                 continue
             if f"added_mass_n{place}" in values:
                 mass, damping = (values[f"{key}_n{place}"][0][0] for key in ("added_mass", "damping"))
             else:
                 mass, damping = values[f"added_mass_{motion}"], values[f"damping_{motion}"]
-            # Splines between frequencies 8 % apart leave 1e-3.
-            assert abs(between(np.log(omega)) / (mass + 1j * damping / omega) - 1.0) < 5e-3
+            # Measured, at most 5e-6.
+            assert abs(between(omega) / (mass + 1j * damping / omega) - 1.0) < 2e-5
 
 
 HELD: dict[str, Any] = {
@@ -512,9 +513,9 @@ def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> Non
     """To 1e-6, of all motions together; over a bed heave has a logarithm at low frequencies."""
     request = {"kind": "impulse_response", "times": [0.0, 1.0, 10.0]}
     (table,) = solved([LOW], depth, 1e-6, request).impulse_response
-    # Measured 2.5e-7 in deep water; the estimate, 1.3e-5, is of the whole ray.
-    assert table.causality_error.max() < 1e-6
-    assert table.causality_error.max() < table.relative_error < 2e-5
+    # Measured 2.5e-7 in deep water. The estimate, 1.7e-3, is of K(0), which damping beyond the last frequency adds to.
+    assert table.causality_error.max() < 1e-6 < table.relative_error < 3e-3
+    assert np.all(table.impulse_response_error[1:] < 0.5 * table.impulse_response_error[0])
     omega = float(table.omega[12])
     (known,) = solved([LOW], depth, 1e-6, radiation(omega, math.inf)).radiation
     size = np.abs(known.added_mass[0]).max()

@@ -1,6 +1,7 @@
 """Nothing that a scene names is executed: gmsh runs what it does not know as a script, and FILE.opt beside FILE."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -98,6 +99,17 @@ def test_a_script_in_place_of_a_mesh_is_refused_and_not_run(
     (line,) = result.stderr.splitlines()
     assert f'{file}": ' in line
     assert "cannot be read" in line
+
+
+@pytest.mark.parametrize(("scene", "file"), [(SHAPE, "tank.step"), (HULL, "hull.step")])
+def test_a_solid_that_ends_its_reader_is_refused(scene: str, file: str) -> None:
+    """Without one of its lines OpenCASCADE would end the process, as do a tenth of other changes at random."""
+    text = solid_file(Path(file)).read_text(encoding="utf-8")
+    Path(file).write_text(re.sub(r"#\d+ = FACE_BOUND\([^;]*;", "", text, count=1), encoding="utf-8")
+    result = invoke("check", scene, file)
+    assert result.exit_code == 2, result.output
+    (line,) = result.stderr.splitlines()
+    assert f"{file} cannot be read: it is broken, or not" in line
 
 
 @pytest.mark.parametrize("command", ["check", "run"])

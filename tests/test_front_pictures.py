@@ -19,7 +19,7 @@ SCENES: dict[str, tuple[str, dict[str, Any], set[str]]] = {
     "lid": ("aquarium", FEW | {"tank.top": "rigid"}, {"mode_001", "overview"}),
     "two liquids": ("float_in_two_liquids", FEW, {"mode_001", "overview"}),
     "thin layers": ("sloshing", FEW | {"liquid.1.depth": 0.05}, {"mode_001", "overview"}),
-    "plan": ("cross_waves", FEW | {"accuracy.tolerance": 1e-2}, {"mode_001", "overview"}),
+    "plan": ("cross_waves", FEW | {"accuracy.tolerance": 1e-2}, {"mode_001", "mode_002"}),
     "open water": ("open_plate", WAVES, {"response_1"}),
     "string": ("string_ramp", {"output.frames": 0}, {"space_time", "shapes", "modes"}),
     "thread": ("catenary", {"analysis": [{"kind": "modes", "count": 2}]}, {"equilibrium", "tension", "modes"}),

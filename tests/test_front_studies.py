@@ -95,7 +95,7 @@ def test_tolerances_are_kept_and_estimates_are_honest(tmp_path: Path) -> None:
     assert np.all(rows["estimate"] <= rows["tolerance"])
     assert np.all((rows["error"] / 3.0 <= rows["estimate"]) & (rows["estimate"] <= 30.0 * rows["error"]))
     study.save(tmp_path / "out")
-    files = {"study.csv", "study.txt", "study.png", "summary.json", "manifest.json"}
+    files = {"study.csv", "study.txt", "study.png", "summary.json"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == files
     assert (tmp_path / "out" / "study.png").stat().st_size > 20_000
 

@@ -262,7 +262,8 @@ def test_a_hose_flutters_at_the_speed_of_a_pipe() -> None:
 def test_a_string_diverges_and_is_ill_posed_beyond() -> None:
     """M U² = T for all motions at once; above, until M U² = T (m + M)/m, they are stable again."""
     thread = {"mass": 1.0, "added_mass": 1.0, "tension": 1.0, "reactive": "lighthill"}
-    result = he.solve(taut(velocity=1.0, **thread, analysis=[stability(0.2, 0.5, 0.8, 1.2, 1.5)]))
+    # Not so that an interval is halved at 1, where no motion has any stiffness.
+    result = he.solve(taut(velocity=1.0, **thread, analysis=[stability(0.2, 0.5, 0.8, 1.1, 1.5)]))
     (found,) = result.summary["stability"]
     assert found["growing"][:4] == [0, 0, 0, 0]
     assert found["ill_posed_from"] == 1.5

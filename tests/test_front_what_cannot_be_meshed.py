@@ -56,12 +56,36 @@ depth = 1e-9
 density = 800.0
 depth = 2.0
 """
+# Of cells that follow the curve of the column, over all of its length.
+WELL = """
+kind = "tank"
+[tank]
+length = 12.0
+width = 6.0
+[[liquid]]
+density = 1000.0
+depth = {depth}
+[[baffle]]
+start = [2.5, 0.0]
+end = [2.5, 6.0]
+bottom = -1.2
+[[column]]
+position = [10.0, 3.0]
+radius = 0.6
+[accuracy]
+tolerance = 0.1
+modes = 6
+"""
 SCENES = {
+    "a deep well": (WELL.format(depth=2500.0), "tetrahedra are needed, and 3e+06 can be made"),
     "a draught of nothing": (BARGE.format(draught=3e-8), '[[body]] number 1, key "draught" = 3e-08'),
     "a draught of little": (BARGE.format(draught=1e-5), "too little to be meshed"),
-    "a layer of nothing": (THIN_LAYER, "so thin that its cells would be flat"),
+    "a layer of nothing": (THIN_LAYER, "scene.toml: [tank], [[liquid]]: the liquid cannot be meshed: one of"),
     "a wedge, in waves": (SPAR.format(analysis="response", frequencies="omega = [0.2, 0.6]"), "a wedge of less than"),
-    "a wedge, in resonance": (SPAR.format(analysis="resonance", frequencies=""), "a wedge of less than"),
+    "a wedge, in resonance": (
+        SPAR.format(analysis="resonance", frequencies=""),
+        "scene.toml: [sea], [[liquid]], [[body]]: ",
+    ),
 }
 
 
@@ -84,3 +108,11 @@ def test_check_and_run_refuse_what_cannot_be_meshed_alike(
     for number in ("nan", "gmsh could not", ": ."):
         assert number not in said[0]
     assert not Path("results").exists()
+
+
+def test_check_does_not_make_a_mesh_that_takes_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("scene.toml").write_text(WELL.format(depth=300.0), encoding="utf-8")
+    result = CliRunner().invoke(main, ["check", "scene.toml"])
+    assert result.exit_code == 0, result.output
+    assert "too large to be meshed here, by its sizes about" in " ".join(result.stdout.split())

@@ -1,7 +1,7 @@
 """Upright tanks with level beds: references, closed forms, and one model beside another.
 
-Strips, discs and rings about the axis are solved order by order, rectangles in boxes on products of two intervals, all
-other plans on triangles. A ratio of estimate to error of 1 to 30 is the promise of all estimates.
+Strips, discs and rings about the axis are solved order by order, all other plans on triangles. A ratio of estimate to
+error of 1 to 30 is the promise of all estimates.
 """
 
 from __future__ import annotations
@@ -64,8 +64,10 @@ def test_frequencies_keep_a_narrow_tolerance(names: str, tolerance: float) -> No
 
 @pytest.mark.parametrize("name", ["slosh_box", "slosh_cylinder", "cover_box_s0"])
 def test_closed_forms_are_met(name: str) -> None:
-    # Rounding of a plate whose stiffest shape is 10⁹ times as stiff as its softest: measured 3e-11.
-    assert of_case(name, 1e-8).modes.omega == pytest.approx(CASES[name]["omega"], rel=1e-10)
+    modes = of_case(name, 1e-8).modes
+    errors = np.abs(modes.omega / CASES[name]["omega"] - 1.0)
+    # Orders have rounding only; below the covered box the poles of the depth leave 2e-10, which the estimate tells.
+    assert np.all(errors < (modes.relative_error if name == "cover_box_s0" else 1e-10))
 
 
 def test_a_covered_cylinder_is_closed_for_order_zero() -> None:
@@ -234,7 +236,8 @@ OTHER_MODELS: dict[str, tuple[Any, str, float, int]] = {
 def test_another_model_of_the_same_tank_has_its_frequencies(case: str) -> None:
     make, name, tolerance, count = OTHER_MODELS[case]
     result, plain = (solved(document, tolerance, count) for document in (make(), reference_tank(name)))
-    assert (result.summary["solver"]["model"] != plain.summary["solver"]["model"]) == (case != "without symmetry")
+    differ = case in ("disc beside the axis", "strip as rectangle")
+    assert (result.summary["solver"]["model"] != plain.summary["solver"]["model"]) == differ
     errors = result.modes.omega / reference(name)[:count] - 1.0
     # From above: poles do not exceed the depth's response.
     assert errors.min() > -1e-9
@@ -359,12 +362,9 @@ def test_a_plate_a_millimetre_from_a_wall_keeps_its_tolerance() -> None:
 
 @pytest.mark.slow
 def test_a_study_asks_each_model_for_tolerances() -> None:
-    study = he.study(he.read("rectangular_cover", {"accuracy.modes": 3}), tolerances=[1e-2])
+    study = he.study(he.read("cross_waves", {"accuracy.modes": 3}), tolerances=[1e-2])
     rows = study.measured.rows
-    assert [(row.model, row.tolerance) for row in rows] == [
-        ("box", 1e-2),
-        ("plan", 1e-2),
-    ]
+    assert [(row.model, row.tolerance) for row in rows] == [("orders", 1e-2), ("plan", 1e-2)]
     for row in rows:
         assert max(map(abs, row.errors)) <= row.estimate <= row.tolerance
 

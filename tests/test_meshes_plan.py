@@ -47,7 +47,7 @@ def _meshed(wall: Loop, *plates: PlanRegion, layers: int = 3, mirrors: Mirrors =
     mesh = plan_mesh(
         PlanRegion(name="water", outside=wall),
         plates,
-        size=lambda _: 0.25,
+        size=0.25,
         layers=layers,
         thickness=0.1,
         geometry_degree=6,
@@ -74,8 +74,22 @@ def test_a_plate_between_walls_has_its_area_and_layers() -> None:
     corners = cell_positions(mesh.mesh, mesh.cells("water"), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
     left = (np.abs(corners[..., 1] - 0.4) < 0.151) & (corners[..., 0] < 0.3 + 1e-9)
     beside = np.unique(np.round(0.3 - corners[..., 0][left], 9))
-    # Layers of ratio 0.2 left of the plate, the outermost one a sixth of its shorter side.
-    assert beside[:4] == pytest.approx([0.0, 0.002, 0.01, 0.05], abs=1e-9)
+    # Layers of ratio 0.2 left of the plate.
+    assert beside[:4] == pytest.approx([0.0, 0.004, 0.02, 0.1], abs=1e-9)
+
+
+@pytest.mark.parametrize("mirrors", [(None, None), (None, 0.4)])
+def test_rectangles_may_touch_and_span_walls_beside_a_narrow_gap(mirrors: Mirrors) -> None:
+    strip, corner = _box(0.3, 0.5, 0.0, 0.8), _box(0.501, 1.0, 0.0, 0.8)
+    if mirrors == (None, None):
+        corner = _box(0.501, 1.0, 0.0, 0.3)
+    plates = (PlanRegion(name="strip", outside=strip), PlanRegion(name="corner", outside=corner))
+    mesh = _meshed(_box(0.0, 1.0, 0.0, 0.8), *plates, mirrors=mirrors)
+    share = 0.5 ** sum(mirror is not None for mirror in mirrors)
+    areas = {"strip": 0.16, "corner": 0.499 * (0.3 if share == 1.0 else 0.8)}
+    areas["water"] = 0.8 - sum(areas.values())
+    for name, area in areas.items():
+        assert _area(mesh, name) == pytest.approx(share * area, rel=1e-12)
 
 
 def test_layers_thinner_than_the_sagitta_of_their_arcs_do_not_fold() -> None:

@@ -22,7 +22,6 @@ def test_without_quadratic_damping_it_is_the_closed_form() -> None:
     assert solution.motion.angle.tolist() == roll_response(SHIP, TRAIN, TIMES, 0.05).angle.tolist()
     assert abs(solution.statistics.largest_angle) >= np.abs(solution.motion.angle).max()
     assert 0.0 < solution.relative_error < 1e-13
-    assert set(solution.seconds) == {"solve", "statistics"}
 
 
 def test_the_error_of_an_integration_is_that_to_a_tighter_one() -> None:
@@ -37,7 +36,6 @@ def test_the_error_of_an_integration_is_that_to_a_tighter_one() -> None:
 @pytest.mark.parametrize("change", [1e-6, 1e-4])
 def test_errors_of_the_ship_bound_their_effect(change: float) -> None:
     solution = roll_solution(SHIP, TRAIN, TIMES, relative_ship_error=change)
-    assert set(solution.seconds) == {"solve", "statistics", "errors"}
     for sign, other in ((1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)):
         off = Ship(natural_frequency=K * (1.0 + sign * change), damping=SHIP.damping + other * change * K)
         difference = np.abs(roll_response(off, TRAIN, TIMES).angle - solution.motion.angle).max()

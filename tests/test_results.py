@@ -223,7 +223,7 @@ def test_every_folder_is_on_the_page_and_all_of_it_is_small() -> None:
     page = (RESULTS / "README.md").read_text(encoding="utf-8")
     # Not the folders of runs that a reader has made here.
     folders = [folder for folder in RESULTS.iterdir() if folder.is_dir() and folder.name != "__pycache__"]
-    folders = [folder for folder in folders if not (folder / "manifest.json").is_file()]
+    folders = [folder for folder in folders if not (folder / "summary.json").is_file()]
     assert [folder.name for folder in folders if f"| `{folder.name}/" not in page] == []
     files = [file for folder in folders for file in folder.rglob("*") if file.is_file()]
     assert sum(file.stat().st_size for file in files) < LARGEST

@@ -152,3 +152,25 @@ def test_every_shipped_scene_can_be_described(name: str) -> None:
 
 def test_titles_are_printed_as_they_are() -> None:
     assert "[bold]Tank[/nonsense]" in of(title="[bold]Tank[/nonsense]")
+
+
+@pytest.mark.parametrize(
+    ("scene", "seconds", "gigabytes"),
+    [
+        ("float_wedge", 2.3, 0.21),
+        ("conical_tank", 1.9, 0.20),
+        ("cross_waves", 2.3, 0.13),
+        ("ice_in_a_triangle", 3.1, 0.27),
+        ("barge_in_a_dock", 4.4, 0.49),
+        ("hemisphere", 11.6, 0.71),
+        ("open_circle", 8.6, 0.41),
+        ("string_with_load", 1.6, 0.12),
+        ("jumper", 4.7, 0.18),
+        ("swell", 0.9, 0.11),
+    ],
+)
+def test_the_cost_of_each_kind_is_told_within_a_factor_of_three(scene: str, seconds: float, gigabytes: float) -> None:
+    """Beside processor seconds and the largest memory of a run without pictures, measured on one core."""
+    (told,) = re.findall(r"Cost, roughly: about (\S+) s, (\S+) GB, without pictures", checked(scene))
+    assert seconds / 3.0 < float(told[0]) < 3.0 * seconds
+    assert gigabytes / 3.0 < float(told[1]) < 3.0 * gigabytes

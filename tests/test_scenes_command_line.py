@@ -285,13 +285,12 @@ def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], need
 
 
 @pytest.mark.slow
-def test_a_tank_compiles_nothing_and_says_what_its_stages_cost(tmp_path: Path) -> None:
+def test_a_tank_compiles_nothing_and_says_what_it_cost(tmp_path: Path) -> None:
     cache = tmp_path / "cache"
     ended = run_process("run", "aquarium", "--no-images", "--out", "result", *COARSE, XDG_CACHE_HOME=str(cache))
     assert ended.returncode == 0, ended.stderr
     assert not list(cache.glob("fenics/*.c"))
-    timing = json.loads(Path("result", "summary.json").read_text(encoding="utf-8"))["timing"]
-    assert {"import", "mesh", "assemble", "solve", "write"} <= timing.keys()
+    assert 0.0 < json.loads(Path("result", "summary.json").read_text(encoding="utf-8"))["seconds"] < 60.0
 
 
 def test_the_real_command_keeps_streams_and_exit_codes_apart() -> None:
@@ -331,7 +330,7 @@ def test_a_scene_comes_from_the_standard_input(tmp_path: Path, monkeypatch: pyte
     run = run_command("run", "-", "--no-images", "--quiet", "--set", "accuracy.modes=1", input=text)
     assert run.exit_code == 0
     assert (tmp_path / "results" / "standard_input" / "summary.json").is_file()
-    assert json.loads((tmp_path / "results" / "standard_input" / "manifest.json").read_text())["scene"] == ""
+    assert json.loads((tmp_path / "results" / "standard_input" / "summary.json").read_text())["scene_file"] == ""
 
 
 @pytest.mark.parametrize(("shell", "word"), [("bash", "complete"), ("zsh", "compdef"), ("fish", "complete")])

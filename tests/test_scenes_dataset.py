@@ -134,7 +134,8 @@ def folder(folder_of: Callable[[str], Path], request: pytest.FixtureRequest) -> 
 
 def test_the_summary_comes_back_as_it_is(folder: Path) -> None:
     dataset, summary = read_dataset(folder / "dataset.nc")
-    assert summary == json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    assert summary == {key: value for key, value in written.items() if key not in ("scene_file", "files")}
     assert dataset.attrs["status"] == summary["status"]
     assert dataset.attrs["title"] == summary["scene"]["title"]
     assert dataset.attrs["source"] == f"hydroelastic {summary['versions']['hydroelastic']}"
@@ -188,9 +189,8 @@ def test_modes_of_a_tank_lie_along_a_dimension(folder_of: Callable[[str], Path])
     assert dataset.frequency_hz.attrs["units"] == "Hz"
     assert dataset.first_elastic_omega.item() == summary["first_elastic"]["omega"]
     assert not dataset.first_elastic_shared.item()
-    assert dataset.timing.sel(stage="solve").item() == summary["timing"]["solve"]
+    assert dataset.seconds.item() == summary["seconds"]
     assert dataset.versions.sel(package="numpy").item() == np.__version__
-    assert dataset.size_halves.dtype == bool
     for name, estimate in summary["estimates"].items():
         own = dataset.sel(estimate=name)
         assert own.estimate_note.item() == estimate["note"]

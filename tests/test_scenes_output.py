@@ -1,6 +1,5 @@
 """Result folders: whole or not at all, and never over what no run has written."""
 
-import json
 import os
 import signal
 import subprocess
@@ -28,7 +27,7 @@ def save() -> Callable[[Path], None]:
 
 
 Save = Callable[[Path], None]
-FILES = {"summary.json", "summary.md", "response.csv", "dataset.nc", "manifest.json"}
+FILES = {"summary.json", "summary.md", "response.csv", "dataset.nc"}
 
 
 def names(folder: Path) -> set[str]:
@@ -73,6 +72,7 @@ def test_results_that_were_changed_are_kept_under_another_name(save: Save, tmp_p
     target = tmp_path / "result"
     save(target)
     for text in ("first remark", "second remark"):
+        time.sleep(0.02)  # of the resolution of times of files
         (target / "response.csv").write_text(text, encoding="utf-8")
         save(target)
     assert (target / "response.csv").read_text(encoding="utf-8").startswith("t")
@@ -99,14 +99,14 @@ def test_a_run_that_was_killed_amid_the_exchange_gives_its_old_results_back(save
     assert names(tmp_path) == {"result"}
 
 
-@pytest.mark.parametrize("listed", [None, "{}", "not JSON", "[1]", '{"scene": 1, "files": []}'])
-def test_foreign_folders_are_refused_and_kept(save: Save, tmp_path: Path, listed: str | None) -> None:
+@pytest.mark.parametrize(
+    "listed", ["{}", "not JSON", "[1]", '{"scene_file": 1, "files": []}', '{"scene_file": "", "files": {}}']
+)
+def test_foreign_folders_are_refused_and_kept(save: Save, tmp_path: Path, listed: str) -> None:
     target = tmp_path / "mine"
     target.mkdir()
     (target / "thesis.tex").touch()
-    (target / "summary.json").write_text(json.dumps({"scene": {}, "status": "ok"}), encoding="utf-8")
-    if listed is not None:
-        (target / "manifest.json").write_text(listed, encoding="utf-8")
+    (target / "summary.json").write_text(listed, encoding="utf-8")
     before = names(target)
     with pytest.raises(he.SceneError, match="not a result folder"):
         save(target)

@@ -62,7 +62,7 @@ def test_a_page_is_whole(reports: Reports, kind: str) -> None:
     below = [title for level, title in page.headings if level == 3]
     shown = [section.title for section in result.sections]
     assert set(shown) <= set(below)
-    assert {"Unknown fields", "How the answer was found", "Seconds by stage", "Versions"} <= set(below)
+    assert {"Unknown fields", "How the answer was found", "Size and time", "Versions"} <= set(below)
     words = re.sub(r"\s+", " ", page.text)
     for section in result.sections:
         for text in (*section.lines, *section.notes, *(cell for row in section.rows for cell in row)):

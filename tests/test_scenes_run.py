@@ -53,14 +53,14 @@ def read_summary(folder: Path) -> dict[str, Any]:
 
 
 def test_the_folder_holds_what_was_asked_and_no_more(folder: Path) -> None:
-    files = {"manifest.json", "summary.json", "summary.md", "modes.csv", "dataset.nc", "fields"}
+    files = {"summary.json", "summary.md", "modes.csv", "dataset.nc", "fields"}
     assert {path.name for path in folder.iterdir()} == files
     assert [path.name for path in folder.parent.iterdir()] == ["result"]
 
 
 def test_the_summary_has_every_key_of_the_contract(result: he.Result, folder: Path) -> None:
     summary = read_summary(folder)
-    assert summary.keys() >= {"scene", "versions", "size", "timing", "modes", "first_elastic", "estimates", "status"}
+    assert summary.keys() >= {"scene", "versions", "size", "seconds", "modes", "first_elastic", "estimates", "status"}
     for mode in summary["modes"]:
         assert mode.keys() >= {"omega", "frequency_hz", "relative_error", "kind", "elastic_energy_fraction"}
     tone = {"omega", "relative_error", "index", "participation", "runner_up", "added_mass_per_length", "dry_omega"}
@@ -200,7 +200,7 @@ def test_shapes_have_a_generalized_mass_of_one_kilogram(folder: Path, dataset: x
         for side in (1, 2):
             wave = dataset[f"elevation_of_free_surface_{side}"].sel(mode=number).values
             potential += 1000.0 * 9.81 * np.trapezoid(wave**2, dataset[f"position_on_free_surface_{side}"].values)
-        # The trapezoidal rule on 19 points an element; measured 5e-5.
+        # The trapezoidal rule on 201 points.
         assert potential == pytest.approx((1.0 - mode["elastic_energy_fraction"]) * mode["omega"] ** 2, rel=3e-4)
 
 
@@ -209,7 +209,6 @@ def test_the_field_of_a_symmetric_tank_is_mirrored(top: str, tmp_path: Path) -> 
     """Solved as halves: a mode and its mirror image are the same up to sign, on both sides of the middle."""
     changes = {"accuracy.modes": 3, "accuracy.tolerance": 1e-5, "tank.top": top}
     result = he.solve(he.read("aquarium", changes))
-    assert result.summary["size"]["halves"]
     data = result.dataset
     for mode in data.mode.values:
         shape, x = data.deflection_of_body_1.sel(mode=mode).values, data.position_on_body_1.values

@@ -31,7 +31,7 @@ sys.addaudithook(send)
 runpy.run_module("hydroelastic.scenes", run_name="__main__")
 """
 STARTED = [("import", "click"), ("import", "numpy"), ("import", "mpi4py.MPI"), ("import", "scipy.io._netcdf")]
-WRITING = [("open", "response.csv"), ("open", "dataset.nc"), ("open", "manifest.json")]
+WRITING = [("open", "response.csv"), ("open", "dataset.nc"), ("open", "summary.json")]
 ENDING = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
 
@@ -117,7 +117,7 @@ def test_a_signal_at_any_instant_leaves_the_old_or_the_new_result_whole(tmp_path
             process.send_signal(number)
             said = process.communicate(timeout=100)[1]
         assert "Traceback" not in said
-        listed = json.loads((tmp_path / "result" / "manifest.json").read_text(encoding="utf-8"))
+        listed = json.loads((tmp_path / "result" / "summary.json").read_text(encoding="utf-8"))
         assert all((tmp_path / "result" / name).is_file() for name in listed["files"])
         assert {path.name for path in tmp_path.iterdir()} == {"result"} or number == signal.SIGKILL
     run()

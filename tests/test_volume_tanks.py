@@ -619,7 +619,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     "no file": ({"tank": {"shape": "none.step"}}, "there is no file"),
     "too many cells": (
         {"tank": {"radius": 9281.0} | VOLUME, "liquid": [LAYERS[0] | {"depth": 2.5}, LAYERS[1] | {"depth": 0.1}]},
-        "tetrahedra would be needed",
+        "tetrahedra are needed",
     ),
 }
 

@@ -19,7 +19,6 @@ def solve(case: Case) -> Answer:
     return Answer(
         values=tuple(solution.omega(one.mode.eigenvalue) for one in solution.modes),
         unknowns=solution.size["dofs"],
-        stages=solution.seconds,
         note=f"estimate {error:.1e}",
     )
 

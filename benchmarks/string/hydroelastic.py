@@ -35,7 +35,6 @@ def solve(prepared: tuple[Case, StringScene]) -> Answer:
     return Answer(
         values=tuple(solution.displacement[compared(case.tank)].tolist()),
         unknowns=solution.size["dofs" if field else "terms"],
-        stages=solution.seconds,
         note=_note(solution),
     )
 

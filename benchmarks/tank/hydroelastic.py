@@ -56,7 +56,6 @@ def solve(scene: TankScene) -> Answer:
     return Answer(
         values=frequencies(solution),
         unknowns=solution.field.dofs,
-        stages=solution.seconds,
         note="; ".join([f"estimate {estimate:.1e}", *solution.reasons]),
     )
 

@@ -13,7 +13,6 @@ from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.tank import hydroelastic as hydroelastic_tank
 from hydroelastic.benchmarks.tank.cases import MODES
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.field_solution import solve_field
 from hydroelastic.fem.tank.liquids import ANEW
 from hydroelastic.fem.tank.resolution import initial_resolution
@@ -29,17 +28,13 @@ def prepare(case: Case) -> TankScene:
 
 def solve(scene: TankScene) -> Answer:
     """The ten lowest frequencies."""
-    watch = Stopwatch()
     physical = physical_tank(scene)
-    with watch.stage("plan"):
-        tank = physical.scaled()
-        half = is_mirror_image(tank)
-        resolution = initial_resolution(tank, scene.accuracy.tolerance, modes=MODES)
-    with watch.stage("mesh"):
-        mesh = ANEW.mesh(MPI.COMM_WORLD, tank, resolution, half=half)
-    field = solve_field(mesh, tank, resolution, MODES, watch, half=half)
+    tank = physical.scaled()
+    half = is_mirror_image(tank)
+    resolution = initial_resolution(tank, scene.accuracy.tolerance, modes=MODES)
+    mesh = ANEW.mesh(MPI.COMM_WORLD, tank, resolution, half=half)
+    field = solve_field(mesh, tank, resolution, MODES, half=half)
     return Answer(
         values=tuple(map(float, np.sqrt(field.modes.eigenvalues) * physical.units.frequency)),
         unknowns=field.dofs,
-        stages=dict(watch.seconds),
     )

@@ -1,4 +1,4 @@
-"""The smallest model of a tank: orders on a line, a box of two intervals, a plan of triangles, or its volume."""
+"""The smallest model of a tank: orders on a line, a plan of triangles, or its volume."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ class NotTreatedError(ValueError):
     """No solver takes such a tank."""
 
 
-LevelModel: TypeAlias = Literal["orders", "box", "plan", "volume"]
+LevelModel: TypeAlias = Literal["orders", "plan", "volume"]
 
 MODEL_WORDS: dict[LevelModel, str] = {
     "orders": "upright tank with a level bed whose orders separate: one problem on a line for each, exact in depth",
-    "box": "upright box with a level bed and rectangular plates: products of two intervals, exact in depth",
     "plan": "upright tank with a level bed: triangles on the plan, the depth by its poles",
     "volume": "volume: tetrahedra in all of the liquid",
 }
@@ -37,16 +36,16 @@ def level_model(physical: LevelTank) -> LevelModel:
     tank = physical.scaled()
     if separated(tank) is not None:
         return "orders"
-    if any(plate.slats for plate in tank.plates):
-        raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
-    if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
-        return "box"
     _require_plan(tank)
     return "plan"
 
 
 def _require_plan(tank: LevelTank) -> None:
     """Refuse a dimensionless tank that cannot be solved on its plan."""
+    if any(plate.slats for plate in tank.plates):
+        raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
+    if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
+        return
     for index, plate in enumerate(tank.plates):
         number = index + 1
         if isinstance(plate.outline, Strip):
@@ -68,16 +67,11 @@ def _require_plan(tank: LevelTank) -> None:
 
 def models_of(physical: LevelTank) -> tuple[LevelModel, ...]:
     """Return all models that take a tank, the smallest one first."""
-    found = [level_model(physical)]
-    plates = physical.plates
-    if found[0] == "volume":
-        return tuple(found)
-    if found[0] == "orders" and isinstance(physical.plan, Box) and not any(plate.slats for plate in plates):
-        found.append("box")
-    if found[-1] != "plan" and not any(isinstance(plate.outline, Strip) for plate in plates):
+    smallest = level_model(physical)
+    if smallest == "orders":
         try:
             _require_plan(physical.scaled())
         except NotTreatedError:
-            return tuple(found)
-        found.append("plan")
-    return tuple(found)
+            return (smallest,)
+        return "orders", "plan"
+    return (smallest,)

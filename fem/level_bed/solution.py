@@ -140,7 +140,6 @@ class LevelSolution(ClosedSolution[LevelTank]):
         tones: one for each elastic plate.
         zero_modes: motions without stiffness, which are not modes.
         size: numbers of unknowns and the like, by name.
-        solves: applications of the liquid operator.
         count_method: what confirms the number of modes, in words.
     """
 
@@ -149,7 +148,6 @@ class LevelSolution(ClosedSolution[LevelTank]):
     tones: tuple[PlateTone, ...]
     zero_modes: int
     size: dict[str, int]
-    solves: int
     count_method: str = BY_INERTIA
 
     @property

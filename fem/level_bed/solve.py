@@ -15,7 +15,7 @@ from hydroelastic.fem.level_bed.plate_tone import ROUNDING, SAFETY, plate_tone
 from hydroelastic.fem.level_bed.resolution import LineResolution, expected_eigenvalue, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import Separation, separated
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, shift_above, shortcomings
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.physics.level_tank import LevelTank
 
 _MOST_ATTEMPTS = 5
@@ -48,7 +48,6 @@ def solve_level_tank(
     physical: LevelTank, *, tolerance: float, modes: int, tones: bool = True, report: Report = lambda _message: None
 ) -> LevelSolution:
     """Solve an upright tank with a level bed, alike on each process."""
-    watch = Stopwatch()
     tank = physical.scaled()
     separation = separated(tank)
     if separation is None:
@@ -58,7 +57,7 @@ def solve_level_tank(
 
     def solve(resolution: LineResolution) -> _Attempt:
         report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers")
-        return _attempt(tank, separation, resolution, modes, watch)
+        return _attempt(tank, separation, resolution, modes)
 
     def refine(resolution: LineResolution, attempt: _Attempt) -> LineResolution | None:
         if attempt.errors.max(initial=0.0) <= aim:
@@ -88,8 +87,7 @@ def solve_level_tank(
     for index, plate in enumerate(tank.plates):
         if plate.is_elastic and tones:
             report(f"first elastic tone of plate {index + 1}")
-            with watch.stage("elastic tone"):
-                found_tones.append(plate_tone(tank, separation, index, tolerance))
+            found_tones.append(plate_tone(tank, separation, index, tolerance))
     solution = LevelSolution(
         physical=physical,
         tank=tank,
@@ -117,10 +115,7 @@ def solve_level_tank(
             "surface_unknowns": sum(one.pencil.size for one in found.orders),
             "plate_shapes": sum(one.pencil.body_size for one in found.orders),
         },
-        solves=sum(one.modes.solves for one in found.orders),
-        attempts=next(attempts) - 1,
         reasons=(),
-        seconds=dict(watch.seconds),
     )
     return replace(solution, reasons=tuple(shortcomings(solution)))
 
@@ -131,12 +126,9 @@ def _model(separation: Separation) -> str:
     return "upright box with a level bed: one problem along x for each order n of cos nπy/B, exact in depth"
 
 
-def _attempt(
-    tank: LevelTank, separation: Separation, resolution: LineResolution, count: int, watch: Stopwatch
-) -> _Attempt:
-    with watch.stage("modes"):
-        # One mode more than asked for, to count in the gap above.
-        orders = solve_orders(tank, separation, resolution, count + 1)
+def _attempt(tank: LevelTank, separation: Separation, resolution: LineResolution, count: int) -> _Attempt:
+    # One mode more than asked for, to count in the gap above.
+    orders = solve_orders(tank, separation, resolution, count + 1)
     ordered = sorted(
         (float(value), order, place)
         for order, one in enumerate(orders)
@@ -144,13 +136,11 @@ def _attempt(
     )
     values = np.array([value for value, _, _ in ordered[: count + 1]])
     asked = ordered[:count]
-    with watch.stage("errors"):
-        last = {orders[order].order: place + 1 for _, order, place in asked}
-        finer = {order: _values(tank, separation, resolution.finer(), order, most) for order, most in last.items()}
+    last = {orders[order].order: place + 1 for _, order, place in asked}
+    finer = {order: _values(tank, separation, resolution.finer(), order, most) for order, most in last.items()}
     exact = np.array([finer[orders[order].order][place] for _, order, place in asked])
-    with watch.stage("count"):
-        shift = shift_above(values)
-        counted = all(count_below(one.pencil, shift) == int(np.sum(one.modes.eigenvalues < shift)) for one in orders)
+    shift = shift_above(values)
+    counted = all(count_below(one.pencil, shift) == int(np.sum(one.modes.eigenvalues < shift)) for one in orders)
     values = values[: len(asked)]
     return _Attempt(
         resolution=resolution,

@@ -37,7 +37,6 @@ from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 
 # Newton's method: relative last step, most steps on one basis, most solutions that are added to the basis.
@@ -118,15 +117,12 @@ class DampedSolver:
 
     Args:
         model: the problem, with coordinates rotated by `mirror_angle`.
-        watch: records the time by stage.
     """
 
-    def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
+    def __init__(self, model: OpenModel) -> None:
         """Prepare (collective)."""
         self.model = model
-        self._watch = watch
-        with watch.stage("solve"):
-            self._direct: ShiftedSolver = model.pencil.solver()
+        self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         # Whether motions of bodies excite the even and the odd wave at any frequency solved so far.
         self._excited = np.zeros(2, dtype=bool)
@@ -146,12 +142,10 @@ class DampedSolver:
         """Add the solutions at λ to the basis (collective)."""
         mirrored = squared.conjugate()
         waves = self._waves(mirrored)
-        with self._watch.stage("solve"):
-            self._direct.shift(mirrored)
-            solutions = np.array([self._direct.solve(load) for load in waves.loads])
-        with self._watch.stage("reduce"):
-            unknowns = waves.without_radiation(self.model.pencil.products(waves.loads, solutions)).unknowns
-            self._reduced.add(mirrored, unknowns @ solutions, unknowns @ waves.loads)
+        self._direct.shift(mirrored)
+        solutions = np.array([self._direct.solve(load) for load in waves.loads])
+        unknowns = waves.without_radiation(self.model.pencil.products(waves.loads, solutions)).unknowns
+        self._reduced.add(mirrored, unknowns @ solutions, unknowns @ waves.loads)
 
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
@@ -172,8 +166,7 @@ class DampedSolver:
         found = self._mirrored(squared.conjugate())
         sizes = np.abs(found.motions.excitation).max(axis=1)
         self._excited |= sizes > _NOT_EXCITED * sizes.max()
-        with self._watch.stage("reduce"):
-            misfits = self._reduced.misfits(squared.conjugate(), found.loads, found.coordinates)
+        misfits = self._reduced.misfits(squared.conjugate(), found.loads, found.coordinates)
         # Far from the axis H is nearly all XᵀW⁻¹X: the residual is relative to the whole inertia.
         whole = np.abs(np.diag(self.model.mass + found.motions.hydrodynamic))
         return found.motions.hydrodynamic.conj(), float((misfits / np.sqrt(whole)).max())
@@ -229,10 +222,9 @@ class DampedSolver:
         )
 
     def _waves(self, mirrored: complex) -> _Waves:
-        with self._watch.stage("waves"):
-            wave = DeepWaterWave(layers=self.model.basin.scaled_layers, squared=mirrored)
-            standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
-            fluxes, pressures, own = surface_integrals(self.model, standing)
+        wave = DeepWaterWave(layers=self.model.basin.scaled_layers, squared=mirrored)
+        standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
+        fluxes, pressures, own = surface_integrals(self.model, standing)
         # Beside a slit x is zero but for rounding, by which the flux of waves that grow along it is multiplied.
         sizes = np.abs(fluxes).max(axis=1, initial=0.0)
         self.model.pencil.comm.Allreduce(MPI.IN_PLACE, sizes, op=MPI.MAX)
@@ -247,9 +239,8 @@ class DampedSolver:
 
     def _mirrored(self, mirrored: complex) -> _Reduced:
         waves = self._waves(mirrored)
-        with self._watch.stage("reduce"):
-            projected = self._reduced.project(waves.loads)
-            coordinates = self._reduced.solve(mirrored, projected)
+        projected = self._reduced.project(waves.loads)
+        coordinates = self._reduced.solve(mirrored, projected)
         motions = waves.without_radiation(projected @ coordinates.T)
         return _Reduced(
             motions=motions, loads=motions.unknowns @ waves.loads, coordinates=motions.unknowns @ coordinates

@@ -126,7 +126,6 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
             ray=ray,
             band=(band.lowest / unit, band.highest / unit),
             slow=0.5 * expected[0] / unit,
-            watch=problem.watch,
         )
         found = integral.followed(times * unit, has_low_series=has_low_frequency_series(problem.tank))
         size = np.abs(initial).max()
@@ -188,11 +187,9 @@ def _resonant_motion(
 
     def solve(resolution: Resolution) -> Attempt[_ResonantMotion]:
         model = open_model(problem, band, resolution, angle=ANGLE)
-        with problem.watch.stage("resonances"):
-            search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
-            poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
-        with problem.watch.stage("errors"):
-            causes = resonance_errors(model, poles)
+        search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
+        poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
+        causes = resonance_errors(model, poles)
         initial = _initial(model, request)
         residues = _residues(model, poles, initial)
         scaled = times * model.basin.units.frequency

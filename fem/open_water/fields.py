@@ -29,7 +29,6 @@ from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, 
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Stopwatch
 
 # Motions and resonances of one analysis that are shown.
 _MOST_FIELDS = 4
@@ -94,7 +93,7 @@ def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> 
     asked = [(place, table.fields_at or own) for place, own in peaks]
     known = [omega for _, omegas in asked for omega in omegas]
     model = _model(problem, min(known), max(known), motions=max(shown) + 1)
-    solver, why = OpenSolver(model, problem.watch), "" if table.fields_at else _why("damping is largest", table)
+    solver, why = OpenSolver(model), "" if table.fields_at else _why("damping is largest", table)
     radiation = cache(solver.radiation)
     for place, omegas in asked:
         dof = table.dofs[place]
@@ -121,7 +120,7 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
     row, wave = _largest_response(problem.tank.length, table)
     omegas = table.fields_at or (float(table.omega[row]),)
     model = _model(problem, min(omegas), max(omegas), motions=0)
-    solver = OpenSolver(model, problem.watch)
+    solver = OpenSolver(model)
     solver.elevation = table.wave_amplitude
     for place, omega in enumerate(omegas, 1):
         name = f"response_{number}" + (f"_{place:03d}" if len(omegas) > 1 else "")
@@ -176,7 +175,7 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
     search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
     for place, omega in shown.items():
         label = table.labels[place]
-        pair = _found_again(search, model.squared_frequency(omega), problem.watch)
+        pair = _found_again(search, model.squared_frequency(omega))
         if pair is None:
             continue
         own = model.scale.dofs.index(label)
@@ -193,11 +192,10 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
         )
 
 
-def _found_again(search: ResonanceSearch, squared: complex, watch: Stopwatch) -> Eigenpair | None:
+def _found_again(search: ResonanceSearch, squared: complex) -> Eigenpair | None:
     """The resonance of a λ in another basin (collective)."""
     try:
-        with watch.stage("resonances"):
-            pair = search.refined(squared)
+        pair = search.refined(squared)
     except EigenSolverError:
         return None
     return pair if abs(pair.eigenvalue / squared - 1.0) <= _SAME else None

@@ -92,7 +92,7 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
 def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]) -> tuple[np.ndarray, float]:
     """Return the added mass at infinite frequency to the tolerance of the problem (collective)."""
     basin = open_basin(problem.tank, 0.0)
-    tank, watch = basin.tank, problem.watch
+    tank = basin.tank
     tolerance = workable_tolerance(problem.tolerance, tank.depth)
     first = infinite_frequency_resolution(tank, tolerance, ())
 
@@ -100,16 +100,14 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
         absorbing_layer = sized_absorbing_layer(
             basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance
         )
-        with watch.stage("mesh"):
-            mesh = distributed_mesh(
-                problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
-            )
-        with watch.stage("added mass"):
-            pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
-            matrix, potentials = body_responses(pencil)
-            inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
-            scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
-            causes = added_mass_errors(pencil.liquid, potentials, scale, tank, resolution, half=False)
+        mesh = distributed_mesh(
+            problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
+        )
+        pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
+        matrix, potentials = body_responses(pencil)
+        inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
+        scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
+        causes = added_mass_errors(pencil.liquid, potentials, scale, tank, resolution, half=False)
         return Attempt(result=matrix, causes=causes, resolution=resolution)
 
     best = best_in_basin(tank, tolerance, solve, replace(first, shapes=shapes), infinite_frequency=True)

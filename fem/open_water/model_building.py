@@ -11,7 +11,7 @@ from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, GRO
 from hydroelastic.fem.open_water.pencil import build_open_pencil
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, tank_layers, whole_bodies
-from hydroelastic.fem.tank.mesh import graded_outline
+from hydroelastic.fem.tank.mesh import graded_outline, unknown_count
 from hydroelastic.fem.tank.outline import zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import (
     Resolution,
@@ -77,17 +77,15 @@ def open_model(
 ) -> OpenModel:
     """Mesh and assemble open water (collective)."""
     basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
-    tank, watch = basin.tank, problem.watch
-    with watch.stage("mesh"):
-        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
+    tank = basin.tank
+    mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
-    with watch.stage("assemble"):
-        pencil = build_open_pencil(
-            liquid,
-            scaling_of(basin, absorbing_layer),
-            bodies=whole_bodies(tank, resolution.shapes),
-            surfaces=moving_surfaces(mesh, tank),
-        )
+    pencil = build_open_pencil(
+        liquid,
+        scaling_of(basin, absorbing_layer),
+        bodies=whole_bodies(tank, resolution.shapes),
+        surfaces=moving_surfaces(mesh, tank),
+    )
     return OpenModel(
         basin=basin,
         resolution=resolution,
@@ -99,12 +97,12 @@ def open_model(
     )
 
 
-def first_mesh(
-    water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None = None
-) -> TaggedMesh:
-    """Return the mesh of `open_model`, on the calling process."""
-    basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
-    return open_mesh(basin, resolution, absorbing_layer)
+def first_size(water: Tank, tolerance: float, band: Band) -> tuple[int, int, int]:
+    """Return cells, degree and unknowns of ψ of the first mesh of `open_model`, which is made on this process."""
+    resolution = first_resolution(water, tolerance, band)
+    basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=None, drawn=None)
+    mesh = open_mesh(basin, resolution, absorbing_layer)
+    return len(mesh.cells), resolution.degree, unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)
 
 
 def _laid(

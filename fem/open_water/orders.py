@@ -135,8 +135,7 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
     while not found or len(found) <= last or _matters(problem, found[-1].table):
         own = problem.of_order(len(found))
         # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
-        hulls = found[0].table.hulls if found else ()
-        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request, hulls))
+        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
     table = replace(_response(problem, found), curve=_curve(problem, request, found))
     return replace(_largest(found), table=table, error=_error(found))
 

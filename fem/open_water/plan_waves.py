@@ -131,7 +131,7 @@ def _scattered(problem: OpenWaterProblem, band: Band, orders: int, amplitude: fl
         own = rough.of_order(order)
         resolution = first_resolution(own.tank, own.tolerance, band, drawn=drawn)
         model = open_model(own, band, resolution, drawn=drawn)
-        solver = OpenSolver(model, problem.watch)
+        solver = OpenSolver(model)
         solver.elevation = amplitude
         found = solver.response(band.lowest, [0])
         wave = found.incidence.planes[0]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
 
 if TYPE_CHECKING:
@@ -26,7 +25,6 @@ class OpenWaterProblem:
     comm: MPI.Comm  # MPI communicator
     tank: Tank  # open water in SI units, with at least one body
     tolerance: float  # largest relative error that is accepted
-    watch: Stopwatch  # records the time by stage
     bands: tuple[tuple[float, float], ...] = ()  # lowest and highest frequency of each analysis, rad/s
     # the last solver of each azimuthal order, of sections order 0, with what it was made for: several analyses of the
     # same frequencies share it

@@ -99,15 +99,14 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
             difference=_difference,
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            causes = [_causes(swept.solutions[place]) for place in places]
-            unmeshed = unmeshed_error(solver.model)
-            # The error of the basis is relative to the largest entry.
-            flux_errors = [
-                solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
-                for solution, error in zip(swept.solutions, swept.errors, strict=True)
-            ]
+        places = estimated_places(omegas)
+        causes = [_causes(swept.solutions[place]) for place in places]
+        unmeshed = unmeshed_error(solver.model)
+        # The error of the basis is relative to the largest entry.
+        flux_errors = [
+            solution.flux_errors(unmeshed) + error * np.abs(solution.diffraction).max(initial=0.0)
+            for solution, error in zip(swept.solutions, swept.errors, strict=True)
+        ]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(
@@ -361,13 +360,11 @@ def zero_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         model = open_model(problem, band, replace(resolution, shapes=shapes))
         loads = model.pencil.loads.astype(complex)
-        with problem.watch.stage("solve"):
-            solver = model.pencil.solver()
-            solver.shift(0.0)
-            radiated = np.array([solver.solve(load) for load in loads]).reshape(loads.shape)
+        solver = model.pencil.solver()
+        solver.shift(0.0)
+        radiated = np.array([solver.solve(load) for load in loads]).reshape(loads.shape)
         matrix = model.pencil.products(loads, radiated)
-        with problem.watch.stage("errors"):
-            causes = model.errors(radiated, np.abs(np.diag(matrix)))
+        causes = model.errors(radiated, np.abs(np.diag(matrix)))
         masses = np.where(np.outer(grows, grows), np.inf, model.scale.masses(matrix).real)
         return Attempt(result=masses, causes=causes, resolution=resolution)
 

@@ -179,7 +179,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int, e
         model = open_model(problem, band, replace(resolution, shapes=shapes), angle=scaling)
         unit = model.basin.units.frequency
         low, high = band.lowest / unit, band.highest / unit
-        solver = OpenSolver(model, problem.watch)
+        solver = OpenSolver(model)
         causes: dict[complex, FrequencyErrors] = {}
 
         def full(omega: complex) -> np.ndarray:
@@ -207,50 +207,49 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int, e
             ray = _widest_ray(resonances, scaling)
             basis_error = max(basis_error, swept_along(ray, np.zeros(0)))
         resonances, residues = _resonances(solver, (low, high), ray.angle, resonances)
-        with problem.watch.stage("memory"):
-            far = model.scale.unknown_masses(limit)
-            least = min(_LOWER / (latest * unit), 1e-4 * low)
-            # The ray ends at the highest frequency.
-            radii = high / ray_radii(1.0, high / least, ray.gap, _RULE)[::-1]
-            has_series = has_low_frequency_series(problem.tank)
-            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), None, has_low_series=has_series)
-            beyond = added - far
-            if not has_series:
-                beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
+        far = model.scale.unknown_masses(limit)
+        least = min(_LOWER / (latest * unit), 1e-4 * low)
+        # The ray ends at the highest frequency.
+        radii = high / ray_radii(1.0, high / least, ray.gap, _RULE)[::-1]
+        has_series = has_low_frequency_series(problem.tank)
+        added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), None, has_low_series=has_series)
+        beyond = added - far
+        if not has_series:
+            beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
 
-            def masses(matrices: np.ndarray) -> np.ndarray:
-                return np.array([model.scale.masses(one) for one in matrices]).reshape(-1, *limit.shape)
+        def masses(matrices: np.ndarray) -> np.ndarray:
+            return np.array([model.scale.masses(one) for one in matrices]).reshape(-1, *limit.shape)
 
-            def hydrodynamic(omegas: np.ndarray) -> np.ndarray:
-                return masses(solver.hydrodynamics((omegas / unit) ** 2))
+        def hydrodynamic(omegas: np.ndarray) -> np.ndarray:
+            return masses(solver.hydrodynamics((omegas / unit) ** 2))
 
-            memory = memory_on_ray(
-                masses(beyond),
-                limit,
-                radii * unit,
-                ray.angle,
-                poles=np.conj(-1j * resonances * unit),
-                residues=(unit**2 * masses(residues.conj())).astype(np.complex128),
-            )
-            inertia = np.abs(np.diag(model.scale.masses(model.mass))) + np.diag(limit)
-            tail = damping_tail(
-                hydrodynamic,
-                band.highest,
-                NO_WATER * band.highest**2 * inertia,
-                least_powers,
-                has_peaks=len(resonances) > 0,
-            )
-            fitted = _FITTED * band.highest
-            fitted = fitted[fitted > axis[0] * unit]
-            clear = np.abs(fitted[:, None] / (unit * resonances.real) - 1.0) > _CLEAR
-            fitted = fitted[clear.all(axis=1)]
-            memory = memory.completed(
-                fitted,
-                hydrodynamic(fitted),
-                1j * np.exp(1j * ray.angle) * band.highest * _FASTER,
-                tail,
-                (_MISFIT * problem.tolerance, problem.tolerance),
-            )
+        memory = memory_on_ray(
+            masses(beyond),
+            limit,
+            radii * unit,
+            ray.angle,
+            poles=np.conj(-1j * resonances * unit),
+            residues=(unit**2 * masses(residues.conj())).astype(np.complex128),
+        )
+        inertia = np.abs(np.diag(model.scale.masses(model.mass))) + np.diag(limit)
+        tail = damping_tail(
+            hydrodynamic,
+            band.highest,
+            NO_WATER * band.highest**2 * inertia,
+            least_powers,
+            has_peaks=len(resonances) > 0,
+        )
+        fitted = _FITTED * band.highest
+        fitted = fitted[fitted > axis[0] * unit]
+        clear = np.abs(fitted[:, None] / (unit * resonances.real) - 1.0) > _CLEAR
+        fitted = fitted[clear.all(axis=1)]
+        memory = memory.completed(
+            fitted,
+            hydrodynamic(fitted),
+            1j * np.exp(1j * ray.angle) * band.highest * _FASTER,
+            tail,
+            (_MISFIT * problem.tolerance, problem.tolerance),
+        )
         found = _Found(
             memory=memory,
             model=model,

@@ -28,7 +28,6 @@ from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 
 # Least (if possible) and largest angle between the ray and the resonances beside it, rad.
@@ -103,7 +102,6 @@ class RayIntegral:
         ray: path of integration.
         band: lowest and highest frequency of the mesh, dimensionless.
         slow: dimensionless frequency below which H determines the tail.
-        watch: records the time by stage.
     """
 
     def __init__(
@@ -114,12 +112,11 @@ class RayIntegral:
         ray: Ray,
         band: tuple[float, float],
         slow: float,
-        watch: Stopwatch,
     ) -> None:
         """Prepare (collective)."""
         self._model, self._limit, self._initial, self._ray, self._band = model, limit, initial, ray, band
-        self._slow, self._watch = slow, watch
-        self._solver = OpenSolver(model, watch)
+        self._slow = slow
+        self._solver = OpenSolver(model)
         # ω and the relative errors of H of the solutions by a factorization.
         self._omegas: list[complex] = []
         self._causes: list[FrequencyErrors] = []
@@ -131,19 +128,17 @@ class RayIntegral:
         # The end of the ray is on the arc already.
         chosen = np.concatenate([meshed, arc(high * self._ray.turned, _ON_ARC)[:-1]])
         swept = sweep(self._problem(), chosen, self._model.tolerance)
-        with self._watch.stage("motion"):
-            least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
-            radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))
-            fast = high_frequency_series(
-                lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
-            )
-            added, slow = hydrodynamics_along_ray(
-                self._solver, self._ray, radii, self._band, fast, has_low_series=has_low_series
-            )
-            weights = self._ray_weights(radii)
-            motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
-        with self._watch.stage("errors"):
-            errors = self._errors(times, radii, added, chosen, swept, (slow, fast))
+        least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
+        radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))
+        fast = high_frequency_series(
+            lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
+        )
+        added, slow = hydrodynamics_along_ray(
+            self._solver, self._ray, radii, self._band, fast, has_low_series=has_low_series
+        )
+        weights = self._ray_weights(radii)
+        motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
+        errors = self._errors(times, radii, added, chosen, swept, (slow, fast))
         return RayMotion(
             motion=motion,
             errors=errors,

@@ -122,7 +122,6 @@ class _Found:
 
 def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find resonances to the tolerance of the problem, and count them independently (collective)."""
-    watch = problem.watch
     expected, beyond = expected_frequencies(problem, request)
     if not expected:
         return _nothing(problem)
@@ -134,13 +133,11 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         damped, known = _damped_resonances(problem, coarse.resolution, region, known)
         solver = damped
     else:
-        solver = OpenSolver(coarse, watch)
+        solver = OpenSolver(coarse)
         # Water that bodies hardly take part in has resonances far from all expected ones.
-        with watch.stage("count"):
-            inside = _inside(solver, region) or {}
+        inside = _inside(solver, region) or {}
         missing = [omega for omega in inside if not _is_known(omega, known, _SAME_ROUGHLY)]
-        with watch.stage("resonances"):
-            known = sorted([*known, *_search(coarse, missing, region, _NEARLY_STILL, known)], key=abs)
+        known = sorted([*known, *_search(coarse, missing, region, _NEARLY_STILL, known)], key=abs)
     values = known[: request.count]
     band, angle = Band(lowest=region.lowest, highest=region.highest), _angle(problem, values)
     if damped:
@@ -148,21 +145,18 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
         model = open_model(problem, band, resolution, angle=angle)
-        with watch.stage("resonances"):
-            search = DampedSolver(model, watch) if damped else _outgoing_search(model)
-            pairs = []
-            for omega in values:
-                # One of the coarse mesh alone is none; the count tells whether one is missing.
-                with suppress(EigenSolverError):
-                    pairs.append(search.refined(model.squared_frequency(omega)))
-        with watch.stage("errors"):
-            causes = resonance_errors(model, pairs)
+        search = DampedSolver(model) if damped else _outgoing_search(model)
+        pairs = []
+        for omega in values:
+            # One of the coarse mesh alone is none; the count tells whether one is missing.
+            with suppress(EigenSolverError):
+                pairs.append(search.refined(model.squared_frequency(omega)))
+        causes = resonance_errors(model, pairs)
         return Attempt(result=_Found(model=model, pairs=pairs, tried=len(values)), causes=causes, resolution=resolution)
 
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
-    with watch.stage("count"):
-        closed, counted = _counted(solver, _closed_region(region, found, request), known)
+    closed, counted = _counted(solver, _closed_region(region, found, request), known)
     return ResonanceSolution(
         table=replace(_table(found, attempt.causes, counted, closed), not_sought=beyond),
         model=found.model,
@@ -309,8 +303,7 @@ def rough_resonances(
     # Beside the real axis, where the continuous spectrum begins.
     beside = [omega * (1.0 - 0.05j) for omega in expected if omega < region.highest]
     targets = beside or [region.highest * (1.0 - 0.05j)]
-    with problem.watch.stage("resonances"):
-        return model, sorted(_search(model, targets, region, _STILL, []), key=abs)
+    return model, sorted(_search(model, targets, region, _STILL, []), key=abs)
 
 
 def _search(
@@ -347,14 +340,13 @@ def _damped_resonances(
     band = Band(lowest=region.lowest, highest=region.highest * sqrt(1.0 + region.damping**2))
     resolution = replace(first_resolution(rough.tank, rough.tolerance, band), shapes=resolution.shapes)
     model = open_model(rough, band, resolution, angle=mirror_angle(region.damping))
-    solver = DampedSolver(model, problem.watch)
-    with problem.watch.stage("resonances"):
-        counted = zeros_in(solver, region.boundary)
-        for spacing in _SPACINGS:
-            known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
-            if counted is None or len(known) >= counted:
-                break
-        return solver, known
+    solver = DampedSolver(model)
+    counted = zeros_in(solver, region.boundary)
+    for spacing in _SPACINGS:
+        known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
+        if counted is None or len(known) >= counted:
+            break
+    return solver, known
 
 
 def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> Region:

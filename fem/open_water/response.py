@@ -18,7 +18,9 @@ import numpy as np
 from mpi4py import MPI
 from numpy.polynomial.legendre import leggauss, legvander
 from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
 
+from hydroelastic.fem.cells import nearest_in_cells
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.attempts import best_over_band
@@ -41,14 +43,13 @@ from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
+from hydroelastic.physics.contours import points_along
 
 # Largest part of a motion by which its drawn curve may miss it.
 _DRAWN = 1e-3
 
-# Points of each facet at which pressures are told.
-_ALONG = np.array([[0.0], [0.5]])
-# Points of a facet from which the nearest one to a given point is sought, and steps of Newton's method.
-_NEAR, _STEPS = np.linspace(0.0, 1.0, 9)[:, None], 8
+# Points of a facet by which the cells nearest to a given point are chosen, and how many of them.
+_NEAR, _CANDIDATES = np.linspace(0.0, 1.0, 9)[:, None], 3
 
 # Least difference of a peak from the line between its neighbours, relative to the largest value of the curve.
 _DIFFERS = 0.1
@@ -76,9 +77,7 @@ class _Sweep:
     wave_errors: np.ndarray
 
 
-def solve_response(
-    problem: OpenWaterProblem, request: ResponseRequest, like: tuple[HullPressure, ...] = ()
-) -> ResponseSolution:
+def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
     """Solve for the motion in waves to the tolerance of the problem (collective)."""
     omegas = np.array(request.omega)
     low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
@@ -94,20 +93,19 @@ def solve_response(
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            estimated = [swept.solutions[place] for place in places]
-            causes = [response_errors(solution) for solution in estimated]
-            of_loads = {
-                index: between(omegas, places, values) for index, values in load_errors(solver.model, estimated).items()
-            }
-            errors = ResponseErrors(
-                total=between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors,
-                reduced=swept.errors,
-                drift=drift_errors(swept.solutions, omegas, places, swept.errors),
-                of_loads=of_loads,
-            )
-            of_waves = wave_errors(swept.solutions, omegas, places, swept.errors)
+        places = estimated_places(omegas)
+        estimated = [swept.solutions[place] for place in places]
+        causes = [response_errors(solution) for solution in estimated]
+        of_loads = {
+            index: between(omegas, places, values) for index, values in load_errors(solver.model, estimated).items()
+        }
+        errors = ResponseErrors(
+            total=between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors,
+            reduced=swept.errors,
+            drift=drift_errors(swept.solutions, omegas, places, swept.errors),
+            of_loads=of_loads,
+        )
+        of_waves = wave_errors(swept.solutions, omegas, places, swept.errors)
         joined = joined_errors(causes, float(swept.errors.max()))
         table = response_table(request, solver.model, omegas, swept.solutions, errors)
         weight = solver.model.basin.units.density * solver.model.basin.units.gravity
@@ -125,7 +123,7 @@ def solve_response(
     model = found.solver.model
     table = found.table
     if request.hull_pressures:
-        table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors, like))
+        table = replace(table, **_on_hulls(request, found.swept.solutions, found.swept.errors))
     meshed = table.relative_error - found.swept.errors
     curves = None
     if len(omegas) > FEW:
@@ -212,18 +210,14 @@ def _of_basis(
     return response_table(request, model, omegas, responses, errors, with_plates=False)
 
 
-def _on_hulls(
-    request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray, like: tuple[HullPressure, ...]
-) -> dict[str, Any]:
+def _on_hulls(request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray) -> dict[str, Any]:
     """Pressures along hulls, and of sections in one liquid the drift force by the field beside the bodies,
     with the relative errors by the reduced basis (collective)."""
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
-    towards, points = direction_of(request.waves_from), {one.body: one.points for one in like}
-    found: dict[str, Any] = {
-        "hulls": tuple(hull_pressure(solutions, reduced, index, towards, points.get(index)) for index in hulls)
-    }
+    towards = direction_of(request.waves_from)
+    found: dict[str, Any] = {"hulls": tuple(hull_pressure(solutions, reduced, index, towards) for index in hulls)}
     if len(tank.layers) == 1 and not tank.geometry.is_revolved:
         forces = [
             np.array([one.near_field_drift(place) for place in range(len(one.incident))])
@@ -278,7 +272,6 @@ def hull_pressure(
     reduced: np.ndarray,
     index: int,
     towards: int = RIGHTWARD,
-    points: Floats | None = None,
 ) -> HullPressure:
     """Return the pressure ρω²Ψ along the hull of a float from the left to the right (collective).
 
@@ -290,11 +283,10 @@ def hull_pressure(
     model = responses[0].model
     units, comm = model.basin.units, model.pencil.comm
     weight, origin = units.density * units.gravity, np.array([model.basin.origin, 0.0])
-    if points is None:
-        scaled, places = _of_mesh(model, index)
-        points = units.length * scaled + origin
-    else:
-        places = _nearest(model, index, (points - origin) / units.length)
+    hull = model.basin.tank.hulls[index]
+    arcs = (*hull.below, *hull.above)
+    scaled = np.vstack([points_along(arcs), [arcs[-1].end]])
+    points, places = units.length * scaled + origin, _nearest(model, index, scaled)
     values = np.zeros((len(responses), len(responses[0].incident), len(points)), dtype=complex)
     rough = np.zeros(values.shape[:2])
     for row, response in enumerate(responses):
@@ -333,50 +325,18 @@ def _groups(model: OpenModel, index: int) -> Iterator[FacetGroup]:
     return facet_groups(model.pencil.liquid, model.pencil.bodies[index].surface)
 
 
-def _of_mesh(model: OpenModel, index: int) -> tuple[np.ndarray, _Places]:
-    """Points of all facets around the hull from its left contact point, below (collective)."""
-    cells: list[np.ndarray] = [np.zeros(0, dtype=int)]
-    reference, own = [np.zeros((0, 2))], [np.zeros((0, 2))]
-    for group in _groups(model, index):
-        at = group.reference_points(_ALONG)
-        own.append(group.physical_points(at).reshape(-1, 2))
-        cells.append(np.repeat(group.cells, len(at)))
-        reference.append(np.tile(at, (len(group.cells), 1)))
-    comm = model.pencil.comm
-    gathered = comm.allgather(np.concatenate(own))
-    points = np.concatenate(gathered)
-    hull = model.basin.tank.hulls[index]
-    order = np.argsort(np.arctan2(points[:, 1] - hull.height - 1e-12, points[:, 0] - hull.middle))
-    first = sum(map(len, gathered[: comm.rank]))
-    numbers = np.argsort(order)[first : first + len(gathered[comm.rank])]
-    return points[order], _Places(
-        numbers=numbers,
-        points=gathered[comm.rank],
-        cells=np.concatenate(cells),
-        reference=np.concatenate(reference),
-    )
-
-
 def _nearest(model: OpenModel, index: int, points: np.ndarray) -> _Places:
-    """The nearest points of the facets to given points, each on one process (collective)."""
-    comm = model.pencil.comm
+    """The nearest points of the cells beside a hull to given points, each on one process (collective)."""
+    comm, mesh = model.pencil.comm, model.pencil.liquid.tank.mesh
     away, cells, reference = np.full(len(points), np.inf), np.zeros(len(points), dtype=int), np.zeros((len(points), 2))
     for group in _groups(model, index):
-        start, along = group.reference_corners[0], group.reference_corners[1] - group.reference_corners[0]
-        near = group.physical_points(group.reference_points(_NEAR))
-        for number, point in enumerate(points):
-            facet, place = np.unravel_index(np.linalg.norm(near - point, axis=2).argmin(), near.shape[:2])
-            own, t = group.subset(np.array([facet])), float(_NEAR[place, 0])
-            for _ in range(_STEPS):
-                at = (start + t * along)[None]
-                tangent, apart = own.jacobians(at)[0, 0] @ along, own.physical_points(at)[0, 0] - point
-                t = min(max(t - float(tangent @ apart / (tangent @ tangent)), 0.0), 1.0)
-            at = (start + t * along)[None]
-            distance = float(np.linalg.norm(own.physical_points(at)[0, 0] - point))
-            if distance < away[number]:
-                away[number], cells[number], reference[number] = distance, own.cells[0], at[0]
-    ranks = np.argmin(comm.allgather(away), axis=0)
-    numbers = np.flatnonzero(ranks == comm.rank)
+        near = group.physical_points(group.reference_points(_NEAR)).reshape(-1, 2)
+        for candidates in cKDTree(near).query(points, min(_CANDIDATES, len(near)))[1].T:
+            own = group.cells[candidates // len(_NEAR)]
+            at, distance = nearest_in_cells(mesh, own, points)
+            nearer = distance < away
+            away[nearer], cells[nearer], reference[nearer] = distance[nearer], own[nearer], at[nearer]
+    numbers = np.flatnonzero(np.argmin(comm.allgather(away), axis=0) == comm.rank)
     return _Places(numbers=numbers, points=points[numbers], cells=cells[numbers], reference=reference[numbers])
 
 

@@ -44,7 +44,7 @@ from hydroelastic.fem.open_water.results import (
     ResponseTable,
 )
 from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 
 # Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
@@ -79,7 +79,6 @@ class OpenWaterSolution:
     impulse_response: tuple[ImpulseResponseTable, ...] = ()  # one for each impulse response analysis
     motion: tuple[MotionTable, ...] = ()  # one for each motion analysis
     size: dict[str, int]  # "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved
-    seconds: dict[str, float]  # time by stage
     reasons: tuple[str, ...] = ()  # why the solution does not keep the tolerance or is incomplete; empty if it does
 
     @property
@@ -129,7 +128,6 @@ def solve_open_water(
         impulse_response=tuple(one for one in tables if isinstance(one, ImpulseResponseTable)),
         motion=tuple(one for one in tables if isinstance(one, MotionTable)),
         size=size,
-        seconds=dict(problem.watch.seconds),
         reasons=tuple(reasons),
     )
 

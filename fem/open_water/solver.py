@@ -14,7 +14,6 @@ from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, inc
 from hydroelastic.fem.open_water.model_building import open_model
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.attachments import REGULAR
 
@@ -27,7 +26,7 @@ def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution)
     if known is None or known[0] != (band, resolution):
         problem.solvers.pop(order, None)
         model = open_model(problem, band, resolution)
-        known = (band, resolution), OpenSolver(model, problem.watch)
+        known = (band, resolution), OpenSolver(model)
         problem.solvers[order] = known
     return known[1]
 
@@ -36,7 +35,6 @@ class OpenSolver:
     """Solves one model; frequencies ω in rad/s.
 
     Args:
-        watch: records the time by stage.
 
     Attributes:
         model: the problem.
@@ -44,13 +42,11 @@ class OpenSolver:
         damping: further damping of the body unknowns, in place of drag in irregular waves, dimensionless.
     """
 
-    def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
+    def __init__(self, model: OpenModel) -> None:
         """Prepare (collective)."""
         self.model = model
         self.elevation, self.damping = 0.0, np.zeros_like(model.mass)
-        self._watch = watch
-        with watch.stage("solve"):
-            self._direct: ShiftedSolver = model.pencil.solver()
+        self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
         self._sampled = np.zeros((0, self._loads.shape[1]))
@@ -77,41 +73,36 @@ class OpenSolver:
     def incidence(self, omega: float) -> Incidence:
         """Return the travelling waves at ω in rad/s (collective)."""
         if omega not in self._waves:
-            with self._watch.stage("waves"):
-                basin = self.model.basin
-                scaled = omega / basin.units.frequency
-                self._waves[omega] = incidence(self.model, incident_waves(basin.waves(scaled), basin.tank.geometry))
+            basin = self.model.basin
+            scaled = omega / basin.units.frequency
+            self._waves[omega] = incidence(self.model, incident_waves(basin.waves(scaled), basin.tank.geometry))
         return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:
         """Return ψ radiated by a unit of each body unknown at λ, shape (body unknowns, free unknowns), by a
         factorization; the solutions extend the basis (collective)."""
-        with self._watch.stage("solve"):
-            self._direct.shift(squared)
-            radiated = self._solved(self._loads)
-        with self._watch.stage("reduce"):
-            self._reduced.add(squared, radiated, self._loads)
+        self._direct.shift(squared)
+        radiated = self._solved(self._loads)
+        self._reduced.add(squared, radiated, self._loads)
         return radiated
 
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
-        with self._watch.stage("reduce"):
-            projected = self._known_loads().projected
-            found = [projected @ self._reduced.solve(square, projected).T for square in squares]
-            return np.array(found).reshape(len(found), len(projected), len(projected))
+        projected = self._known_loads().projected
+        found = [projected @ self._reduced.solve(square, projected).T for square in squares]
+        return np.array(found).reshape(len(found), len(projected), len(projected))
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """Return H at λ on the basis, shape (body unknowns, body unknowns), and a relative residual (collective).
 
         The residual is that of one combination of all motions.
         """
-        with self._watch.stage("reduce"):
-            known = self._known_loads()
-            coordinates = self._reduced.solve(squared, known.projected)
-            # Factors without simple ratios, so that no parts cancel by symmetry.
-            parts = np.cos(1.0 + np.arange(len(coordinates)))[None]
-            residual = self._reduced.residuals(squared, known, parts, parts @ coordinates)[0]
-            return known.projected @ coordinates.T, float(residual)
+        known = self._known_loads()
+        coordinates = self._reduced.solve(squared, known.projected)
+        # Factors without simple ratios, so that no parts cancel by symmetry.
+        parts = np.cos(1.0 + np.arange(len(coordinates)))[None]
+        residual = self._reduced.residuals(squared, known, parts, parts @ coordinates)[0]
+        return known.projected @ coordinates.T, float(residual)
 
     def frequency(self, omega: float) -> OpenFrequency:
         """Return radiation and diffraction at ω in rad/s by a factorization; the solutions extend the basis
@@ -120,8 +111,7 @@ class OpenSolver:
         waves = self.incidence(omega)
         radiated, diffracted = self._at(omega)
         if self.model.basin.tank.elastic:
-            with self._watch.stage("reduce"):
-                self._reduced.add(squared, np.vstack([radiated, diffracted]), np.vstack([self._loads, -waves.fluxes]))
+            self._reduced.add(squared, np.vstack([radiated, diffracted]), np.vstack([self._loads, -waves.fluxes]))
         products = self.model.pencil.products
         return OpenFrequency(
             model=self.model,
@@ -139,15 +129,13 @@ class OpenSolver:
         """
         if omega not in self._solutions:
             squared, waves = self.model.squared_frequency(omega), self.incidence(omega)
-            with self._watch.stage("solve"):
-                self._direct.shift(squared)
-                found = self._solved(self._loads), self._solved(-waves.fluxes)
-                dual = self._solved(self._sampled.astype(complex))
-            with self._watch.stage("reduce"):
-                if not self.model.basin.tank.elastic:
-                    self._reduced.add(squared, np.vstack(found), np.vstack([self._loads, -waves.fluxes]))
-                if len(dual):
-                    self._reduced.add(squared, dual, self._sampled)
+            self._direct.shift(squared)
+            found = self._solved(self._loads), self._solved(-waves.fluxes)
+            dual = self._solved(self._sampled.astype(complex))
+            if not self.model.basin.tank.elastic:
+                self._reduced.add(squared, np.vstack(found), np.vstack([self._loads, -waves.fluxes]))
+            if len(dual):
+                self._reduced.add(squared, dual, self._sampled)
             self._solutions[omega] = found
         return self._solutions[omega]
 
@@ -155,11 +143,10 @@ class OpenSolver:
         """The same on the basis, and its largest relative residual (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        with self._watch.stage("reduce"):
-            known, count = self._with_waves(waves), len(self._loads)
-            found = self._reduced.solve(squared, known.projected)
-            residual = self._reduced.residuals(squared, known, np.eye(len(found)), found).max()
-            lift = self._reduced.lift()
+        known, count = self._with_waves(waves), len(self._loads)
+        found = self._reduced.solve(squared, known.projected)
+        residual = self._reduced.residuals(squared, known, np.eye(len(found)), found).max()
+        lift = self._reduced.lift()
         coupling = known.projected[:count]
         return OpenFrequency(
             model=self.model,
@@ -186,9 +173,8 @@ class OpenSolver:
         motions, dampings = self._motions(squared, waves, equations)
         scattered = diffracted + motions @ radiated
         if self.model.basin.tank.elastic:
-            with self._watch.stage("reduce"):
-                # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
-                self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
+            # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
+            self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
         return OpenResponse(
             model=self.model,
             squared=squared,
@@ -208,23 +194,22 @@ class OpenSolver:
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        with self._watch.stage("reduce"):
-            known, count = self._with_waves(waves), len(self._loads)
-            found = self._reduced.solve(squared, known.projected)
-            radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
-            fluxes = -known.projected[count:]
-            equations = self._equations(
-                squared,
-                waves,
-                coupling @ radiated.T,
-                diffracted @ coupling.T,
-                (fluxes @ radiated.T, fluxes @ diffracted.T),
-            )
-            motions, dampings = (part[incident] for part in self._motions(squared, waves, equations))
-            coordinates = diffracted[incident] + motions @ radiated
-            parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
-            residual = self._reduced.residuals(squared, known, parts, coordinates).max()
-            lift = self._reduced.lift()
+        known, count = self._with_waves(waves), len(self._loads)
+        found = self._reduced.solve(squared, known.projected)
+        radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
+        fluxes = -known.projected[count:]
+        equations = self._equations(
+            squared,
+            waves,
+            coupling @ radiated.T,
+            diffracted @ coupling.T,
+            (fluxes @ radiated.T, fluxes @ diffracted.T),
+        )
+        motions, dampings = (part[incident] for part in self._motions(squared, waves, equations))
+        coordinates = diffracted[incident] + motions @ radiated
+        parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
+        residual = self._reduced.residuals(squared, known, parts, coordinates).max()
+        lift = self._reduced.lift()
         return OpenResponse(
             model=self.model,
             squared=squared,
@@ -278,22 +263,21 @@ class OpenSolver:
     def free_motions(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the same with the coordinates of ψ and the body unknowns of each, shape (motions, basis + body
         unknowns) (collective)."""
-        with self._watch.stage("reduce"):
-            stiffness = self._coupled(0.0)
-            size, own = len(stiffness), self._reduced.size
-            damping = np.zeros_like(stiffness)
-            damping[own:, own:] = 1j * self.model.outside.damping
-            mass = stiffness - self._coupled(1.0) - damping
-            if damping.any():
-                # (S − ωC − ω²M) x = 0 in (x, ωx).
-                zero, one = np.zeros_like(stiffness), np.eye(size)
-                left, right = np.block([[zero, one], [stiffness, -damping]]), np.block([[one, zero], [zero, mass]])
-                omegas, vectors = eig(left, right)
-            else:
-                squares, vectors = eig(stiffness, mass)
-                omegas = np.sqrt(squares)
-            chosen = np.isfinite(omegas) & (omegas.real >= 0.0)
-            found = omegas[chosen] * self.model.basin.units.frequency, vectors[:size, chosen].T
+        stiffness = self._coupled(0.0)
+        size, own = len(stiffness), self._reduced.size
+        damping = np.zeros_like(stiffness)
+        damping[own:, own:] = 1j * self.model.outside.damping
+        mass = stiffness - self._coupled(1.0) - damping
+        if damping.any():
+            # (S − ωC − ω²M) x = 0 in (x, ωx).
+            zero, one = np.zeros_like(stiffness), np.eye(size)
+            left, right = np.block([[zero, one], [stiffness, -damping]]), np.block([[one, zero], [zero, mass]])
+            omegas, vectors = eig(left, right)
+        else:
+            squares, vectors = eig(stiffness, mass)
+            omegas = np.sqrt(squares)
+        chosen = np.isfinite(omegas) & (omegas.real >= 0.0)
+        found = omegas[chosen] * self.model.basin.units.frequency, vectors[:size, chosen].T
         # All processes must take the same branch in spite of rounding.
         motions: tuple[np.ndarray, np.ndarray] = self.model.pencil.comm.bcast(found)
         return motions
@@ -311,12 +295,11 @@ class OpenSolver:
     def water_resonances(self) -> tuple[np.ndarray, np.ndarray]:
         """Return λⱼ at which the water oscillates about fixed bodies, shape (basis,), and R of H = Σ R/(λⱼ − λ), shape
         (basis, body unknowns, body unknowns), on the basis; with those of the continuous spectrum (collective)."""
-        with self._watch.stage("reduce"):
-            laplace = self._reduced.operator(0.0)
-            mass = laplace - self._reduced.operator(1.0)
-            squares, vectors = eig(laplace, mass)
-            forces = self._known_loads().projected @ vectors
-            residues = np.einsum("ij,kj,j->jik", forces, forces, 1.0 / np.einsum("ij,ik,kj->j", vectors, mass, vectors))
+        laplace = self._reduced.operator(0.0)
+        mass = laplace - self._reduced.operator(1.0)
+        squares, vectors = eig(laplace, mass)
+        forces = self._known_loads().projected @ vectors
+        residues = np.einsum("ij,kj,j->jik", forces, forces, 1.0 / np.einsum("ij,ik,kj->j", vectors, mass, vectors))
         # All processes must take the same branch in spite of rounding.
         found: tuple[np.ndarray, np.ndarray] = self.model.pencil.comm.bcast((squares, residues))
         return found

@@ -191,9 +191,8 @@ def _curves(problem: OpenWaterProblem, request: SpectrumRequest) -> Attempt[Curv
         omegas = np.geomspace(lowest, highest, _FIRST)
         for _ in range(_HALVINGS + 1):
             curves = certified_curves(solver, incident, omegas, frequencies, problem.tolerance)
-            with problem.watch.stage("errors"):
-                places = estimated_about_peaks(curves)
-                causes = [response_errors(curves.responses[place]) for place in places]
+            places = estimated_about_peaks(curves)
+            causes = [response_errors(curves.responses[place]) for place in places]
             total = np.array([cause.total.max() for cause in causes])
             joined = joined_errors(causes, float(curves.errors.max()))
             # About a resonance they change by orders of magnitude.

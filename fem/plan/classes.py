@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -12,9 +13,9 @@ from hydroelastic.fem.level_bed.solution import shift_above
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.modes import HIDDEN, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.second_start import lowest_beyond
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.modal.plate.rectangle import AxisParity, ClassParity
 from hydroelastic.physics.arrays import FloatArray
 
 OF_RESIDUALS = 1e-3
@@ -22,6 +23,12 @@ OF_RESIDUALS = 1e-3
 
 # Relative residual of what a second start finds: an eigenvalue is as near.
 _OF_SECOND_START = 1e-2
+
+
+def mirrored_classes(mirrors: Mirrors) -> tuple[ClassParity, ...]:
+    """Return the symmetry classes of a plan: even and odd about each of its mirror planes."""
+    choices: list[tuple[AxisParity, ...]] = [(None,) if mirror is None else (0, 1) for mirror in mirrors]
+    return tuple(product(choices[0], choices[1]))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,9 +16,9 @@ from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.level_bed.solution import SampledSurface
 from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.plan.classes import ClassProblem
+from hydroelastic.fem.plan.plan import PlanModel
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, water_unknowns
 from hydroelastic.meshes.geometry import FREE_SURFACE
-from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion
 from hydroelastic.physics.arrays import FloatArray
 
 # Standing waves of a plan that carry ψ down; what is left is near the edges of plates.
@@ -31,13 +31,11 @@ class MeshProblem(ClassProblem):
 
     Attributes:
         plates: the plates as bodies.
-        regions: their outlines.
-        mirrors: x and y of the mirror planes.
+        model: the tank on its plan.
     """
 
     plates: tuple[PlanPlate, ...]
-    regions: tuple[PlanRegion, ...]
-    mirrors: Mirrors
+    model: PlanModel
 
     @cached_property
     def _waves_at(self) -> dict[bytes, FloatArray]:
@@ -75,13 +73,13 @@ class MeshProblem(ClassProblem):
         del second
         space: PlanSpace = self.pencil.liquid.space
         points = np.column_stack([x, y])
-        places, sign = self.symmetry_class.folded(points.T, self.mirrors)
+        places, sign = self.symmetry_class.folded(points.T, self.model.mirrors)
         folded = places.T
         under = [
             np.array(
                 [region.outside.contains(p) and not any(hole.contains(p) for hole in region.inside) for p in points]
             )
-            for region in self.regions
+            for region in self.model.regions[1]
         ]
         elevation = np.zeros(len(x))
         if self.pencil.surfaces:

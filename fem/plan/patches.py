@@ -1,80 +1,87 @@
-"""Places on the still surface of boxes and plans at which modes are sampled: triangles on the water and each plate."""
+"""Places on the still surface at which modes are sampled: triangles on the water and on each plate.
+
+Patches that meet at an edge have points of their own there: the displacement of plate and water differ.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from itertools import pairwise, product
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from hydroelastic.fem.level_bed.choice import level_model
-from hydroelastic.fem.level_bed.patches import Patch, line_patches
-from hydroelastic.fem.level_bed.separation import separated
-from hydroelastic.fem.plan.rectangle_body import rectangle_of
+from hydroelastic.fem.level_bed.resolution import breakpoints, plate_at
+from hydroelastic.fem.level_bed.separation import Separation, separated
 from hydroelastic.meshes.plan import plan_mesh
 from hydroelastic.meshes.plan_regions import plan_regions
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name
-from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.level_tank import LevelTank
 
 # Cells along the larger side of a plan.
 _ALONG = 40
 # Points are this part of a cell inside it, so that those at an edge are on their own side of it.
 _INSIDE = 1e-5
+# Cells along a line of orders and across it, of the whole plan.
+_LINE_ALONG, _ACROSS = 60, 72
+# Beside an edge on this line the water's points lie this part of a piece inside it.
+_LINE_INSIDE = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Patch:
+    """A piece of the still surface, dimensionless.
+
+    Attributes:
+        plate: index of the plate that covers it; ``None`` is water.
+        points: x and y, shape (points, 2).
+        triangles: numbers of their corners, shape (triangles, 3).
+    """
+
+    plate: int | None
+    points: FloatArray
+    triangles: np.ndarray
 
 
 def level_patches(tank: LevelTank) -> tuple[Patch, ...]:
     """Return the water and the plates of a dimensionless tank, in whichever model."""
-    model = level_model(tank)
-    if model == "orders":
+    if level_model(tank) == "orders":
         separation = separated(tank)
         assert separation is not None
-        return line_patches(separation)
-    patches = _box_patches(tank) if model == "box" else _plan_patches(tank)
-    return tuple(replace(patch, points=_moved_inside(patch.points, patch.triangles)) for patch in patches)
+        return _line_patches(separation)
+    return tuple(replace(patch, points=_moved_inside(patch.points, patch.triangles)) for patch in _plan_patches(tank))
 
 
-def _box_patches(tank: LevelTank) -> list[Patch]:
-    """Rectangles between the lines through the edges of all plates."""
-    assert isinstance(tank.plan, Box)
-    sides = (tank.plan.length, tank.plan.width)
-    outlines = [rectangle_of(plate.outline) for plate in tank.plates]
-    lines = []
-    for axis, side in enumerate(sides):
-        places = {0.0, side}
-        for outline in outlines:
-            middle, half = outline.position[axis], 0.5 * outline.size[axis]
-            places |= {place for place in (middle - half, middle + half) if 1e-9 < place < side - 1e-9}
-        lines.append(sorted(places))
+def _line_patches(separation: Separation) -> tuple[Patch, ...]:
+    """Return the pieces between walls and edges of a tank whose orders separate."""
+    whole = separation.end - separation.start
+    across = np.linspace(0.0, 2.0 * np.pi if separation.round else separation.width, _ACROSS + 1)
     patches = []
-    for (left, right), (low, high) in product(*map(pairwise, lines)):
-        counts = [max(3, round(_ALONG * (end - start) / max(sides))) for start, end in ((left, right), (low, high))]
+    for left, right in pairwise(breakpoints(separation)):
+        plate = plate_at(separation, 0.5 * (left + right))
+        inside = 0.0 if plate is not None else _LINE_INSIDE * (right - left)
+        count = max(4, round(_LINE_ALONG * (right - left) / whole))
         # Denser towards the edges, where the displacement changes quickly.
-        along, across = (0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, count + 1))) for count in counts)
-        x, y = np.meshgrid(left + (right - left) * along, low + (high - low) * across, indexing="ij")
-        numbers = np.arange(x.size).reshape(x.shape)
-        a, b, c, d = (part.ravel() for part in (numbers[:-1, :-1], numbers[1:, :-1], numbers[1:, 1:], numbers[:-1, 1:]))
-        middle_x, middle_y = 0.5 * (left + right), 0.5 * (low + high)
-        under = [
-            index
-            for index, outline in enumerate(outlines)
-            if abs(middle_x - outline.position[0]) < 0.5 * outline.size[0]
-            and abs(middle_y - outline.position[1]) < 0.5 * outline.size[1]
-        ]
+        along = left + inside + (right - left - 2.0 * inside) * 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, count + 1)))
+        first, second = np.meshgrid(along, across, indexing="ij")
+        x, y = (first * np.cos(second), first * np.sin(second)) if separation.round else (first, second)
+        numbers = np.arange(first.size).reshape(first.shape)
+        corners = [numbers[:-1, :-1], numbers[1:, :-1], numbers[1:, 1:], numbers[:-1, 1:]]
+        a, b, c, d = (corner.ravel() for corner in corners)
         patches.append(
             Patch(
-                plate=under[0] if under else None,
+                plate=plate,
                 points=np.column_stack([x.ravel(), y.ravel()]),
                 triangles=np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])]),
-                shape=(x.shape[0], x.shape[1]),
             )
         )
-    return patches
+    return tuple(patches)
 
 
 def _plan_patches(tank: LevelTank) -> list[Patch]:
     wall, plates = plan_regions(tank)
-    mesh = plan_mesh(wall, plates, size=lambda _: 1.0 / _ALONG, layers=1, thickness=0.5 / _ALONG, geometry_degree=2)
+    mesh = plan_mesh(wall, plates, size=1.0 / _ALONG, layers=1, thickness=0.5 / _ALONG, geometry_degree=2)
     patches = []
     plate_of = {body_name(index + 1): index for index in range(len(plates))}
     for name, tag in mesh.cell_names.items():
@@ -85,7 +92,6 @@ def _plan_patches(tank: LevelTank) -> list[Patch]:
                 plate=plate_of.get(name),
                 points=mesh.points[used],
                 triangles=triangles.reshape(-1, 3),
-                shape=(len(used), 1),
             )
         )
     return patches

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import count as numbered
-from itertools import product
-from math import ceil, log, log10, pi, sqrt
+from math import ceil, inf, log, log10, pi, sqrt
 
 import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
+from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
-from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
+from hydroelastic.fem.plan.classes import (
+    ClassModes,
+    SymmetryClass,
+    count_is_confirmed,
+    merged_errors,
+    mirrored_classes,
+    solve_classes,
+)
 from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
 from hydroelastic.fem.plan.plan_pencil import (
     PlanLiquid,
@@ -27,19 +33,24 @@ from hydroelastic.fem.plan.plan_pencil import (
     stacked_pencil,
 )
 from hydroelastic.fem.plan.plates import plan_plate
-from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
-from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
-from hydroelastic.fem.plan.released import ReleasedProblem
-from hydroelastic.fem.plan.released_plan import released_plan
+from hydroelastic.fem.plan.polynomials import (
+    more_polynomials,
+    plate_wavenumbers,
+    polynomial_counts,
+    water_wavenumber,
+)
+from hydroelastic.fem.plan.released import ReleasedProblem, released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
+from hydroelastic.meshes.plan_grid import are_rectangles
 from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
-from hydroelastic.meshes.plan_loops import Mirrors, image_count, room_between
+from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion, image_count, room_between
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.level_tank import LevelTank
 
 HIGHEST_DEGREE = 10
@@ -109,8 +120,23 @@ class PlanResolution:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PlanParts:
+    """What all symmetry classes of a tank share at one resolution.
+
+    Attributes:
+        space: the part of the plan between its mirror planes.
+        poles: of the depth.
+        missing_layers: how many layers lie between those of a narrow gap and the thickest ones elsewhere.
+    """
+
+    space: PlanSpace
+    poles: VerticalPoles
+    missing_layers: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class PlanModel:
-    """The problems of a plan; see `ClassModel`.
+    """The problems of the symmetry classes of a plan at any resolution.
 
     Attributes:
         tank: the dimensionless tank.
@@ -121,6 +147,16 @@ class PlanModel:
     comm: MPI.Comm
 
     @cached_property
+    def regions(self) -> tuple[PlanRegion, tuple[PlanRegion, ...]]:
+        """The inside of the walls, and the outline of each plate."""
+        return plan_regions(self.tank)
+
+    @cached_property
+    def mirrors(self) -> Mirrors:
+        """x and y of the mirror planes."""
+        return mirrors_of(*self.regions)
+
+    @cached_property
     def _parts(self) -> dict[PlanResolution, PlanParts]:
         return {}
 
@@ -128,42 +164,66 @@ class PlanModel:
         """Return what all classes share; that of the last resolution is kept."""
         if resolution not in self._parts:
             self._parts.clear()
-            self._parts[resolution] = plan_parts(self.tank, resolution)
+            self._parts[resolution] = self._assembled(resolution)
         return self._parts[resolution]
+
+    def _assembled(self, resolution: PlanResolution) -> PlanParts:
+        wall, plates = self.regions
+        thickness = min(0.5 * resolution.size, self.tank.depth)
+        room = inf if are_rectangles(wall, plates) else room_between(wall.loops, edges_of(wall, plates))
+        mesh = plan_mesh(
+            wall,
+            plates,
+            size=resolution.size,
+            layers=resolution.layers,
+            thickness=thickness,
+            geometry_degree=min(max(resolution.degree, 4), 8),
+            mirrors=self.mirrors,
+        )
+        return PlanParts(
+            space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, image_count(self.mirrors)),
+            poles=vertical_poles(self.tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
+            missing_layers=log(min(room / thickness, 1.0)) / log(LAYER_RATIO),
+        )
+
+    def _space(self, resolution: PlanResolution, parity: ClassParity) -> PlanSpace:
+        return self.parts(resolution).space.of_class(parity, self.mirrors)
+
+    def _plates(self, resolution: PlanResolution, parity: ClassParity) -> tuple[PlanPlate, ...]:
+        return tuple(
+            plan_plate(self.tank, index, polynomials, parity)
+            for index, polynomials in enumerate(resolution.polynomials)
+        )
 
     def problem(
         self, resolution: PlanResolution, parity: ClassParity
     ) -> tuple[CoupledPencil[PlanLiquid] | None, tuple[PlanPlate, ...]]:
-        """See `ClassModel.problem`."""
-        parts, plates = self.parts(resolution), self.parts(resolution).plates(parity)
+        """Return the problem of a class, ``None`` where nothing moves, and the plates in its shapes (collective)."""
+        space, plates = self._space(resolution, parity), self._plates(resolution, parity)
         waves, comm = self.tank.top == "free", None if self.tank.top == "pressure_release" else self.comm
-        return plan_pencil(parts.space_of(parity), parts.poles, plates, waves=waves, comm=comm), plates
+        return plan_pencil(space, self.parts(resolution).poles, plates, waves=waves, comm=comm), plates
+
+    def stacked(self, resolution: PlanResolution, parity: ClassParity) -> CoupledPencil:
+        """Return the problem of a class in which something moves, to count its modes in."""
+        space, plates = self._space(resolution, parity), self._plates(resolution, parity)
+        return stacked_pencil(space, self.parts(resolution).poles, plates, waves=self.tank.top == "free")
 
     def released(self, resolution: PlanResolution, parity: ClassParity) -> ReleasedProblem:
-        """See `ClassModel.released`."""
+        """Return the problem of a class with ψ = 0 on the water."""
         # ψ ~ r^{1/2} has a part in all waves as long as the innermost layer, which the poles have to follow.
         innermost = 0.5 * resolution.size * LAYER_RATIO**resolution.layers
         poles = vertical_poles(self.tank.depth, 1.0 / innermost, resolution.pole_error, lowest=_LOWEST)
-        parts = self.parts(resolution)
-        return released_plan(parts.space_of(parity), poles, parts.plates(parity))
+        return released_plan(self._space(resolution, parity), poles, self._plates(resolution, parity))
 
     def errors(
         self, resolution: PlanResolution, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]
     ) -> np.ndarray:
-        """See `ClassModel.errors`: by the liquid, the poles and the plates."""
+        """Return relative errors of ω by the liquid, the poles and the plates, shape (3, modes) (collective)."""
         gradients, missing = liquid_and_pole_errors(one.pencil, modes, self.tank.depth)
         space, potentials = one.pencil.liquid.space, np.array([mode.potential.array_r for mode in modes])
         missing_shapes = plate_errors(plates, modes, lambda plate: potentials @ space.loads(plate).T)
         hidden = 1.0 + _OF_LAYER * self.parts(resolution).missing_layers
         return np.array([0.5 * _WITH_MASS * hidden * gradients, 0.5 * missing, missing_shapes])
-
-    def refined(self, resolution: PlanResolution, errors: np.ndarray, tolerance: float) -> PlanResolution | None:
-        """See `ClassModel.refined`."""
-        return resolution.refined(errors, tolerance)
-
-    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
-        """See `ClassModel.start`."""
-        return plan_resolution(self.tank, tolerance, eigenvalue, released=released)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,38 +231,20 @@ class PlanSolution:
     """Modes of a dimensionless tank on its plan.
 
     Attributes:
-        tank: the tank.
-        resolution: the last one.
-        space: the plan, or the part of it between its mirror planes.
-        mirrors: x and y of these planes.
-        plates: the plates as bodies, in the shapes of each symmetry class.
-        poles: of the depth.
         modes: the lowest modes, one more than asked for.
-        errors: relative errors of their frequencies by the liquid, the poles and the plates, shape (3, modes).
-        counted: whether a coarser model confirms the number of modes.
-        attempts: number of resolutions that were solved.
+        plates: the plates as bodies, in the shapes of each symmetry class.
+        errors: relative errors of their frequencies by cause, shape (causes, modes).
+        counted: whether the number of modes is confirmed.
+        sizes: numbers of the last one, by name.
+        count_method: what confirms the number.
     """
 
-    tank: LevelTank
-    resolution: PlanResolution
-    space: PlanSpace
-    mirrors: Mirrors
-    plates: dict[ClassParity, tuple[PlanPlate, ...]]
-    poles: VerticalPoles
     modes: ClassModes
+    plates: dict[ClassParity, tuple[PlanPlate, ...]]
     errors: np.ndarray
     counted: bool
-    attempts: int
-
-    @property
-    def sizes(self) -> dict[str, int]:
-        """Numbers of its resolution, by name."""
-        return {
-            "problems": len(self.modes.classes),
-            "degree": self.resolution.degree,
-            "layers": self.resolution.layers,
-            "poles": len(self.poles.shifts),
-        }
+    sizes: dict[str, int]
+    count_method: str = BY_INERTIA
 
     @property
     def relative_errors(self) -> np.ndarray:
@@ -212,50 +254,38 @@ class PlanSolution:
 
 
 def solve_plan(
-    tank: LevelTank,
-    *,
-    tolerance: float,
-    count: int,
-    comm: MPI.Comm | None = None,
-    report: Report = lambda _message: None,
+    model: PlanModel, *, tolerance: float, count: int, report: Report = lambda _message: None
 ) -> PlanSolution:
     """Solve a dimensionless tank on its plan (collective)."""
-    attempts, model = numbered(1), PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
+    attempts = numbered(1)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
-        parts = model.parts(resolution)
-        problems = {parity: model.problem(resolution, parity) for parity in parts.classes}
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers")
+        problems = {parity: model.problem(resolution, parity) for parity in mirrored_classes(model.mirrors)}
         pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
-        modes = solve_classes(pencils, count + 1, tolerance)
-        errors = merged_errors(modes, 3, lambda one, own: model.errors(resolution, one, problems[one.parity][1], own))
-
-        def coarse(parity: ClassParity) -> CoupledPencil | None:
-            found = coarser()
-            return stacked_pencil(found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free")
-
-        coarser = cache(lambda: plan_parts(tank, resolution.coarser))
+        modes, poles = solve_classes(pencils, count + 1, tolerance), len(model.parts(resolution).poles.shifts)
         return PlanSolution(
-            tank=tank,
-            resolution=resolution,
-            space=parts.space,
-            mirrors=parts.mirrors,
-            plates={parity: plates for parity, (_, plates) in problems.items()},
-            poles=parts.poles,
             modes=modes,
-            errors=errors,
-            counted=count_is_confirmed(modes, coarse),
-            attempts=attempt,
+            plates={parity: plates for parity, (_, plates) in problems.items()},
+            errors=merged_errors(
+                modes, 3, lambda one, own: model.errors(resolution, one, problems[one.parity][1], own)
+            ),
+            counted=count_is_confirmed(modes, lambda parity: model.stacked(resolution.coarser, parity)),
+            sizes={
+                "problems": len(modes.classes),
+                "degree": resolution.degree,
+                "layers": resolution.layers,
+                "poles": poles,
+            },
         )
 
     return adaptive_solve(
-        plan_resolution(tank, tolerance, expected_eigenvalue(tank, count)),
+        plan_resolution(model.tank, tolerance, expected_eigenvalue(model.tank, count)),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
         ),
-        lambda _, solution: solution.resolution.refined(solution.errors[:, :count], tolerance),
+        lambda resolution, solution: resolution.refined(solution.errors[:, :count], tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
     ).solution
@@ -265,7 +295,7 @@ def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, rel
     """Return the resolution for the modes of a dimensionless tank up to some λ."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.9 * digits), 5), HIGHEST_DEGREE - 1)
-    wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
+    wavenumbers = plate_wavenumbers(tank, eigenvalue)
     shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
     return PlanResolution(
         degree=degree,
@@ -274,74 +304,4 @@ def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, rel
         pole_error=2.0 * tolerance,
         wavenumber=max(shortest, 3.0),
         polynomials=polynomial_counts(tank, wavenumbers, tolerance),
-    )
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlanParts:
-    """What all symmetry classes of a tank share at one resolution.
-
-    Attributes:
-        tank: the dimensionless tank.
-        resolution: of it.
-        mirrors: x and y of its mirror planes.
-        space: the part of the plan between them.
-        poles: of the depth.
-        missing_layers: how many layers lie between those of a narrow gap and the thickest ones elsewhere.
-    """
-
-    tank: LevelTank
-    resolution: PlanResolution
-    mirrors: Mirrors
-    space: PlanSpace
-    poles: VerticalPoles
-    missing_layers: float
-
-    @property
-    def classes(self) -> tuple[ClassParity, ...]:
-        """Even and odd about each mirror plane."""
-        return mirrored_classes(self.mirrors)
-
-    def space_of(self, parity: ClassParity) -> PlanSpace:
-        """Return the space of a class."""
-        return self.space.of_class(parity, self.mirrors)
-
-    def plates(self, parity: ClassParity) -> tuple[PlanPlate, ...]:
-        """Return the plates in the shapes of a class."""
-        return tuple(
-            plan_plate(self.tank, index, polynomials, parity)
-            for index, polynomials in enumerate(self.resolution.polynomials)
-        )
-
-
-def mirrored_classes(mirrors: Mirrors) -> tuple[ClassParity, ...]:
-    """Return the symmetry classes of a plan: even and odd about each of its mirror planes."""
-    both: tuple[AxisParity, ...] = (0, 1)
-    along, across = ((None,) if mirror is None else both for mirror in mirrors)
-    return tuple(product(along, across))
-
-
-def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
-    """Mesh a dimensionless tank's plan up to its mirror planes, and assemble on it."""
-    wall, plates = plan_regions(tank)
-    mirrors = mirrors_of(wall, plates)
-    thickness = min(0.5 * resolution.size, tank.depth)
-    thin = min(thickness, room_between(wall.loops, edges_of(wall, plates)))
-    mesh = plan_mesh(
-        wall,
-        plates,
-        size=lambda _: resolution.size,
-        layers=resolution.layers,
-        thickness=thickness,
-        geometry_degree=min(max(resolution.degree, 4), 8),
-        mirrors=mirrors,
-    )
-    images = image_count(mirrors)
-    return PlanParts(
-        tank=tank,
-        resolution=resolution,
-        mirrors=mirrors,
-        space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, images),
-        poles=vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
-        missing_layers=log(thin / thickness) / log(LAYER_RATIO),
     )

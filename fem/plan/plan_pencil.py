@@ -26,13 +26,12 @@ from hydroelastic.fem.kernels import assembled, compiled_form
 from hydroelastic.fem.liquid import LiquidSpace, liquid_space
 from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
-from hydroelastic.fem.plan.box_pencil import as_matrix
-from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.arrays import FloatArray
 
 Deflection = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -176,6 +175,14 @@ def as_sparse(matrix: PETSc.Mat) -> sparse.csr_matrix:
     """Return a matrix of this process alone for SciPy."""
     starts, columns, values = matrix.getValuesCSR()
     return sparse.csr_matrix((values, columns, starts), shape=matrix.getSize())
+
+
+def as_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
+    """Return a sparse matrix of this process alone."""
+    rows = matrix.indptr.astype(PETSc.IntType), matrix.indices.astype(PETSc.IntType), matrix.data
+    copied = PETSc.Mat().createAIJ(matrix.shape, csr=rows, comm=PETSc.COMM_SELF)
+    copied.assemble()
+    return copied
 
 
 @dataclass(frozen=True, kw_only=True)

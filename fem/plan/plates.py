@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from math import ceil, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate, Pressures
-from hydroelastic.fem.plan.rectangle_body import (
-    ClassParity,
-    RectangleBody,
-    dofs_by_stiffness,
-    rectangle_body,
-)
 from hydroelastic.fem.plan.truncation import finer_count, geometric_tail, missing_after, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
+from hydroelastic.modal.plate.rectangle import AxisParity, ClassParity, RectangleModes, rectangle_modes
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle, Strip
+from hydroelastic.physics.plate import Disc, Edge, Outline, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.symmetry import Parity
 
+# A plate this close to a wall, in units of the tank, touches it.
+_TOUCHING = 1e-9
 # Beyond this degree the polynomials of a polygon are no longer told apart in double precision.
 _HIGHEST_OF_POLYGON = 22
 _RIGID_MOTIONS = ("heave", "pitch", "roll")
@@ -36,36 +33,101 @@ def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParit
     plate = tank.plates[index]
     outline = plate.outline
     if isinstance(outline, Rectangle | Strip):
-        if not isinstance(tank.plan, Box):
-            # The walls of other plans hold no rectangle.
-            plate, box = replace(plate, edge="free"), Box(length=1.0, width=1.0)
-        else:
-            box = tank.plan
-        return _rectangle(partial(rectangle_body, box, index, plate, parity=parity), polynomials)
+        return _rectangle(tank, index, polynomials, parity)
     if isinstance(outline, Disc):
         return _disc(tank, index, outline, polynomials, parity)
     assert isinstance(outline, Polygon)
     return _polygon(plate, index, outline, polynomials, parity)
 
 
-def _rectangle(body_of: Callable[[int], RectangleBody], polynomials: int) -> PlanPlate:
-    found = body_of(polynomials)
+def _rectangle(tank: LevelTank, index: int, polynomials: int, parity: ClassParity) -> PlanPlate:
+    plate, outline = tank.plates[index], _as_rectangle(tank.plates[index].outline)
+    modes, dofs = _rectangle_shapes(tank, index, polynomials, parity)
+    squares = (modes.coefficients**2).sum(axis=(1, 2))
+    bending = plate.flexural_rigidity * modes.stiffness * squares if plate.is_elastic else np.zeros(len(squares))
+
+    def deflection(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return modes.deflection(*(points - np.array(outline.position)[:, None]))
 
     def missing(
         amplitudes: NDArray[np.float64], eigenvalues: NDArray[np.float64], pressures_of: Pressures
     ) -> NDArray[np.float64]:
-        if not found.plate.is_elastic:
+        if not plate.is_elastic:
             return np.zeros(len(amplitudes))
         more = finer_count(polynomials)
+        finer, body = _rectangle_shapes(tank, index, more, parity)[0], _rectangle(tank, index, more, parity)
+        pressures = pressures_of(body)
         return rectangle_energies(
-            found, body_of(more), amplitudes, eigenvalues, pressures_of(_rectangle(body_of, more))
+            plate, modes.coefficients, finer.coefficients, body.body, amplitudes, eigenvalues, pressures
         )
 
     return PlanPlate(
-        body=found.body,
-        deflection=found.deflection,
-        wavenumber=1.5 * polynomials / min(found.outline.size),
+        body=_body(plate, index, deflection, dofs, bending, squares),
+        deflection=deflection,
+        wavenumber=1.5 * polynomials / min(outline.size),
         missing_energy=missing,
+    )
+
+
+def _as_rectangle(outline: Outline) -> Rectangle:
+    if isinstance(outline, Strip):
+        middle = outline.start + 0.5 * outline.length, 0.5 * outline.width
+        return Rectangle(position=middle, size=(outline.length, outline.width))
+    assert isinstance(outline, Rectangle)
+    return outline
+
+
+def _rectangle_shapes(
+    tank: LevelTank, index: int, polynomials: int, parity: ClassParity
+) -> tuple[RectangleModes, tuple[Dof, ...]]:
+    """Dry modes of one symmetry of the tank: heave, ends of pitch, slope of roll and mean squares are 1."""
+    plate, outline = tank.plates[index], _as_rectangle(tank.plates[index].outline)
+    edges = [_held(tank, plate, axis, outline) for axis in (0, 1)]
+    # Shapes of either parity about the plate's own middle exist apart where its two edges are held alike.
+    choices: list[tuple[AxisParity, ...]] = [
+        (None,) if pair[0] != pair[1] else (0, 1) if wanted is None else (wanted,)
+        for pair, wanted in zip(edges, parity, strict=True)
+    ]
+    tables, stiffness = [], []
+    rigid: list[Dof] = []
+    for own in product(*choices):
+        modes = rectangle_modes(
+            outline.size, plate.poisson_ratio, polynomials, edges=(edges[0], edges[1]), parities=(own[0], own[1])
+        )
+        loose = int(np.sum(modes.stiffness == 0.0))
+        count = len(modes.stiffness) if plate.is_elastic else loose
+        table = modes.coefficients[:count] * np.sqrt(outline.area)
+        for number in range(loose):
+            # Pitch is odd along x, roll along y; a hinged plate turns about its hinges.
+            odd = own.index(1) + 1 if 1 in own else 0
+            name = _RIGID_MOTIONS[len(rigid) if odd == 0 and None in own else odd]
+            unit = {"heave": 1.0, "pitch": 1.0 / np.sqrt(3.0), "roll": outline.size[1] / np.sqrt(12.0)}[name]
+            table[number] *= np.sign(table[number].sum()) * unit
+            rigid.append(Dof(name))
+        tables.append(table)
+        stiffness.append(modes.stiffness[:count])
+    values = np.concatenate(stiffness)
+    shapes = RectangleModes(size=outline.size, stiffness=values, coefficients=np.concatenate(tables))
+    return shapes, _dofs_by_stiffness(values, rigid)
+
+
+def _held(tank: LevelTank, plate: Plate, axis: int, outline: Rectangle) -> tuple[Edge, Edge]:
+    """What holds both edges along an axis: those that do not touch a wall of a box are free."""
+    if not isinstance(tank.plan, Box):
+        return "free", "free"
+    if isinstance(plate.outline, Strip) and axis == 1:
+        return "sliding", "sliding"
+    middle, half = outline.position[axis], 0.5 * outline.size[axis]
+    end = (tank.plan.length, tank.plan.width)[axis] - _TOUCHING
+    return plate.edge if middle - half < _TOUCHING else "free", plate.edge if middle + half > end else "free"
+
+
+def _dofs_by_stiffness(stiffness: NDArray[np.float64], rigid: list[Dof]) -> tuple[Dof, ...]:
+    """Names of shapes: rigid motions in their order, elastic ones numbered from the softest."""
+    left = iter(rigid)
+    ranks = np.argsort(np.argsort(stiffness, kind="stable"), kind="stable") - len(rigid) + 1
+    return tuple(
+        next(left) if value == 0.0 else Dof.elastic(int(rank)) for value, rank in zip(stiffness, ranks, strict=True)
     )
 
 
@@ -159,7 +221,7 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int, parity: Cla
             bending.append(whole * modes.bending[place] * factor**2)
     shapes = _DiscShapes(disc=disc, orders=tuple(orders), families=tuple(families), factors=np.array(factors))
     rigidity = plate.flexural_rigidity if plate.is_elastic else 0.0
-    names = dofs_by_stiffness(np.array(bending) / np.array(squares), rigid)
+    names = _dofs_by_stiffness(np.array(bending) / np.array(squares), rigid)
     body = _body(plate, index, shapes, names, rigidity * np.array(bending), np.array(squares))
     return PlanPlate(
         body=body,

@@ -1,4 +1,4 @@
-"""Modes of boxes and plans with ψ = 0 on the water beside their plates, to a tolerance."""
+"""Modes of plans with ψ = 0 on the water beside their plates, to a tolerance."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count as numbered
-from typing import Any
 
 import numpy as np
 
@@ -14,12 +13,14 @@ from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.solution import shift_above
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass
-from hydroelastic.fem.plan.plate_tone import ClassModel, R, released_limits
-from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, mirrored_classes
+from hydroelastic.fem.plan.plan import PlanModel, PlanResolution, PlanSolution, plan_resolution
+from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.plan.plate_tone import released_limits
 from hydroelastic.fem.plan.released import ReleasedModes, ReleasedProblem, released_modes
 from hydroelastic.fem.plan.truncation import finer_count
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.arrays import FloatArray
 
 _MOST_ATTEMPTS, _MOST_LAYERS = 4, 6
@@ -31,57 +32,33 @@ _SEED = 7
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReleasedSolution:
-    """Modes of a dimensionless tank; see `BoxSolution`.
-
-    Attributes:
-        modes: the lowest modes, one more than asked for; λ is the limit of thin layers.
-        plates: as bodies, in the shapes of each class.
-        relative_errors: of each frequency, shape (modes,).
-        counted: whether another start in a finer space finds the same number of modes.
-        attempts: number of resolutions that were solved.
-        sizes: numbers of its resolution, by name.
-    """
-
-    modes: ClassModes
-    plates: dict[ClassParity, Any]
-    relative_errors: FloatArray
-    counted: bool
-    attempts: int
-    sizes: dict[str, int]
-    count_method: str = "a second start"
-
-
-@dataclass(frozen=True, kw_only=True)
 class _ClassSolution:
     """One class at three resolutions, the pencil and the modes of the last one, λ and errors of their limit."""
 
     one: SymmetryClass
-    plates: Any
+    plates: tuple[PlanPlate, ...]
     values: tuple[FloatArray, ...]
     errors: FloatArray
     poles: int
 
 
 def solve_released(
-    model: ClassModel[R],
-    parities: tuple[ClassParity, ...],
+    model: PlanModel,
     *,
     tolerance: float,
     count: int,
     report: Report = lambda _message: None,
-) -> ReleasedSolution:
+) -> PlanSolution:
     """Solve a dimensionless tank whose plates alone move, alike on each process.
 
     ψ ~ r^{1/2} at their edges, and the error falls like the thickness of the innermost layer: as of the first elastic
     tone, three resolutions give the limit and its error. The last one has a degree and a quarter of the polynomials of
     the plates more, so that it shows their errors too.
     """
-    attempts = numbered(1)
+    attempts, parities = numbered(1), mirrored_classes(model.mirrors)
 
-    def solve(resolution: R) -> ReleasedSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers and more")
+    def solve(resolution: PlanResolution) -> PlanSolution:
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.layers} layers and more")
         found = list(filter(None, (_solved_class(model, resolution, parity, count) for parity in parities)))
         ordered = sorted(
             (float(value), number, place)
@@ -94,24 +71,26 @@ def solve_released(
             origins=tuple((number, place) for _, number, place in ordered),
         )
         shift = shift_above(modes.eigenvalues)
-        return ReleasedSolution(
+        return PlanSolution(
             modes=modes,
             plates={one.one.parity: one.plates for one in found},
-            relative_errors=np.array([found[number].errors[place] for _, number, place in ordered]),
+            errors=np.array([[found[number].errors[place] for _, number, place in ordered]]),
             counted=all(len({int(np.sum(values < shift)) for values in one.values[1:]}) == 1 for one in found),
-            attempts=attempt,
             sizes={
                 "problems": len(found),
                 "degree": resolution.degree + 1,
                 "layers": resolution.layers + 2,
                 "poles": max((one.poles for one in found), default=0),
             },
+            count_method="a second start",
         )
 
-    coarse = [_values(model, model.start(_COARSE, 1.0, released=True), parity, count) for parity in parities]
+    coarse = [
+        _values(model, plan_resolution(model.tank, _COARSE, 1.0, released=True), parity, count) for parity in parities
+    ]
     highest = np.sort(np.concatenate(coarse))[:count].max(initial=0.0)
     return adaptive_solve(
-        model.start(tolerance, float(highest), released=True),
+        plan_resolution(model.tank, tolerance, float(highest), released=True),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
@@ -126,13 +105,15 @@ def solve_released(
     ).solution
 
 
-def _values(model: ClassModel[R], resolution: R, parity: ClassParity, count: int) -> FloatArray:
+def _values(model: PlanModel, resolution: PlanResolution, parity: ClassParity, count: int) -> FloatArray:
     if model.problem(resolution, parity)[0] is None:
         return np.empty(0)
     return _lowest(model.released(resolution, parity), count, second=False).eigenvalues
 
 
-def _solved_class(model: ClassModel[R], resolution: R, parity: ClassParity, count: int) -> _ClassSolution | None:
+def _solved_class(
+    model: PlanModel, resolution: PlanResolution, parity: ClassParity, count: int
+) -> _ClassSolution | None:
     finest = replace(
         resolution,
         layers=resolution.layers + 2,
@@ -181,8 +162,6 @@ def _mode_set(pencil: CoupledPencil, problem: ReleasedProblem, found: ReleasedMo
         completed=completed,
         zero_modes=int(np.sum(problem.stiffness == 0.0)),
         converged=len(limits),
-        iterations=1,
-        solves=0,
     )
 
 

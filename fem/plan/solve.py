@@ -1,10 +1,9 @@
-"""Solve a tank in three dimensions in its smallest model: only what that model takes is imported."""
+"""Solve a tank in three dimensions in its smallest model."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
@@ -17,15 +16,16 @@ from hydroelastic.fem.level_bed.solution import (
     PlateTone,
     shortcomings,
 )
-from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.physics.level_tank import Box, FilePlan, LevelTank
+from hydroelastic.fem.level_bed.solve import solve_level_tank
+from hydroelastic.fem.plan.mesh_problem import MeshProblem
+from hydroelastic.fem.plan.plan import PlanModel, PlanSolution, solve_plan
+from hydroelastic.fem.plan.plate_tone import class_tones, listed_tones
+from hydroelastic.fem.plan.released_solve import solve_released
+from hydroelastic.fem.progress import Report
+from hydroelastic.fem.volume.problem import VolumeProblem
+from hydroelastic.fem.volume.solve import VolumeSolution, solve_volume
+from hydroelastic.physics.level_tank import FilePlan, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
-
-if TYPE_CHECKING:
-    from hydroelastic.fem.plan.box import BoxSolution
-    from hydroelastic.fem.plan.plan import PlanSolution
-    from hydroelastic.fem.plan.released_solve import ReleasedSolution
-    from hydroelastic.fem.volume.solve import VolumeSolution
 
 
 def solve_smallest_model(
@@ -41,73 +41,30 @@ def solve_smallest_model(
     """Solve a tank in three dimensions in its smallest model (collective)."""
     model = model or level_model(physical)
     if model == "orders":
-        from hydroelastic.fem.level_bed.solve import solve_level_tank
-
         return solve_level_tank(physical, tolerance=tolerance, modes=modes, tones=tones, report=report)
-    from hydroelastic.fem.plan.plate_tone import class_tones, listed_tones
-
-    watch = Stopwatch()
     tank = physical.scaled()
     problems: list[LevelProblem] = []
-    released = tank.top == "pressure_release" and len(tank.plates) > 0
-    found: BoxSolution | PlanSolution | ReleasedSolution | VolumeSolution
-    with watch.stage("modes"):
-        if model == "box":
-            from hydroelastic.fem.plan.box import BoxModel, solve_box, symmetries
-            from hydroelastic.fem.plan.box_problem import BoxProblem
-
-            assert isinstance(tank.plan, Box)
-            if released:
-                from hydroelastic.fem.plan.released_solve import solve_released
-
-                found = solve_released(
-                    BoxModel(tank=tank), symmetries(tank), tolerance=tolerance, count=modes, report=report
-                )
-            else:
-                found = solve_box(tank, tolerance=tolerance, count=modes, report=report)
-            size = (tank.plan.length, tank.plan.width)
-            problems += [
-                BoxProblem(symmetry_class=one, plates=found.plates[one.parity], size=size)
-                for one in found.modes.classes
-            ]
-            tones_of = partial(listed_tones, tank) if released else partial(class_tones, BoxModel(tank=tank))
-        elif model == "volume":
-            from hydroelastic.fem.volume.problem import VolumeProblem
-            from hydroelastic.fem.volume.solve import solve_volume
-
-            assert isinstance(tank, VolumeTank)
-            found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
-            tones_of = partial(listed_tones, tank)
-        else:
-            from hydroelastic.fem.plan.mesh_problem import MeshProblem
-            from hydroelastic.fem.plan.plan import PlanModel, mirrored_classes, solve_plan
-            from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
-
-            plan_model = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
-            wall, regions = plan_regions(tank)
-            mirrors = mirrors_of(wall, regions)
-            if released:
-                from hydroelastic.fem.plan.released_solve import solve_released
-
-                found = solve_released(
-                    plan_model, mirrored_classes(mirrors), tolerance=tolerance, count=modes, report=report
-                )
-            else:
-                found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            problems += [
-                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=mirrors)
-                for one in found.modes.classes
-            ]
-            tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan_model)
+    found: PlanSolution | VolumeSolution
+    if model == "volume":
+        assert isinstance(tank, VolumeTank)
+        found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
+        problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
+        tones_of = partial(listed_tones, tank)
+    else:
+        plan = PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
+        released = tank.top == "pressure_release" and len(tank.plates) > 0
+        found = (solve_released if released else solve_plan)(plan, tolerance=tolerance, count=modes, report=report)
+        problems += [
+            MeshProblem(symmetry_class=one, plates=found.plates[one.parity], model=plan) for one in found.modes.classes
+        ]
+        tones_of = partial(listed_tones, tank) if released else partial(class_tones, plan)
     errors = found.relative_errors
     classes = found.modes
     has_water = any(one.pencil.surfaces for one in classes.classes)
     found_tones: list[PlateTone] = []
     if tones and any(plate.is_elastic for plate in tank.plates):
         report("first elastic tones of the plates")
-        with watch.stage("elastic tone"):
-            found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
+        found_tones = tones_of(classes, errors, tolerance, has_water=has_water)
     measures = f"; {physical.plan.measures}" if isinstance(physical.plan, FilePlan) else ""
     solution = LevelSolution(
         physical=physical,
@@ -134,9 +91,6 @@ def solve_smallest_model(
             "surface_unknowns": sum(one.pencil.size for one in classes.classes),
             "plate_shapes": sum(one.pencil.body_size for one in classes.classes),
         },
-        solves=sum(one.modes.solves for one in classes.classes),
-        attempts=found.attempts,
         reasons=(),
-        seconds=dict(watch.seconds),
     )
     return replace(solution, reasons=tuple(shortcomings(solution)))

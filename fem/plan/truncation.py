@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from math import ceil
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.mode_set import Mode
-from hydroelastic.fem.plan.rectangle_body import RectangleBody
-
-if TYPE_CHECKING:
-    # Boxes do without dolfinx.
-    from hydroelastic.fem.plan.plan_pencil import PlanPlate, Pressures
+from hydroelastic.fem.plan.plan_pencil import PlanPlate, Pressures
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.plate import Plate
 
 # Slowest decay of the energy with two more polynomials along each side.
 _SLOWEST = 0.6
@@ -45,25 +42,28 @@ def finer_count(polynomials: int) -> int:
 
 
 def rectangle_energies(
-    body: RectangleBody,
-    finer: RectangleBody,
+    plate: Plate,
+    shapes: NDArray[np.float64],
+    finer: NDArray[np.float64],
+    body: Body,
     amplitudes: NDArray[np.float64],
     eigenvalues: NDArray[np.float64],
     pressures: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Estimate the energy by which λ falls in all polynomials, by the residual of modes in more of them.
 
+    Shapes are given by their coefficients (shapes, m, n), those in more polynomials with their body.
     With W the dry shapes in more polynomials, and κ the stiffness of each, λ falls by Σ r²/κ, r = κ∫wW/∫W² − λ(m∫wW +
     ρ∫ψW), which is zero in the polynomials that are there. What is beyond these too follows from the slowest decay.
     """
-    count = body.coefficients.shape[1:]
-    overlap = np.tensordot(body.coefficients, finer.coefficients[:, : count[0], : count[1]], ((1, 2), (1, 2)))
-    elastic = finer.body.bending_stiffness > 0.0
-    stiffness = finer.body.stiffness[elastic]
-    per_area = stiffness / (finer.coefficients[elastic] ** 2).sum(axis=(1, 2))
-    inertia = per_area - body.plate.mass_per_area * eigenvalues[:, None]
+    count = shapes.shape[1:]
+    overlap = np.tensordot(shapes, finer[:, : count[0], : count[1]], ((1, 2), (1, 2)))
+    elastic = body.bending_stiffness > 0.0
+    stiffness = body.stiffness[elastic]
+    per_area = stiffness / (finer[elastic] ** 2).sum(axis=(1, 2))
+    inertia = per_area - plate.mass_per_area * eigenvalues[:, None]
     residual = inertia * (amplitudes @ overlap[:, elastic]) - eigenvalues[:, None] * pressures[:, elastic]
-    beyond = 1.0 - (count[0] / finer.coefficients.shape[1]) ** _SLOWEST_POWER
+    beyond = 1.0 - (count[0] / finer.shape[1]) ** _SLOWEST_POWER
     energies: NDArray[np.float64] = (residual**2 / stiffness).sum(axis=1) / beyond
     return energies
 

@@ -25,7 +25,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf, log, log10, sqrt
-from time import perf_counter
 
 import numpy as np
 from mpi4py import MPI
@@ -96,7 +95,6 @@ class FieldResponse:
     tolerance: float  # asked, m
     problem: str  # why the tolerance is not reached everywhere; empty if it is
     sizes: FieldSizes  # size of the last discretisation
-    seconds: dict[str, float]  # time by stage
 
     @property
     def converged(self) -> bool:
@@ -145,7 +143,6 @@ def field_response(
             half_width=checked.resolution.half_width,
             motions_computed=runs.motions_computed,
         ),
-        seconds=runs.seconds,
     )
 
 
@@ -314,7 +311,6 @@ class StringRuns:
         self._cut = largest * 10.0**-self._digits
         self._smoothed: dict[float, SmoothedMotion] = {}
         self._meshes: dict[int, tuple[StringPencil, StringProbe]] = {}
-        self.seconds = {"mesh": 0.0, "motion": 0.0}
         self.motions_computed = 0
 
     def smoothed(self, resolution: Resolution) -> SmoothedMotion:
@@ -341,12 +337,8 @@ class StringRuns:
 
     def move(self, resolution: Resolution, elements: int | None = None) -> TimeHistory:
         """Compute the motion (collective)."""
-        started = perf_counter()
         pencil, probe = self._on_mesh(elements or self.elements(resolution))
-        meshed = perf_counter()
         result = integrate_motion(pencil, probe, self.smoothed(resolution), self._times, self.step_control(resolution))
-        self.seconds["mesh"] += meshed - started
-        self.seconds["motion"] += perf_counter() - meshed
         self.motions_computed += 1
         return result
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from time import perf_counter
 
 import numpy as np
 from mpi4py import MPI
@@ -38,10 +37,8 @@ def field_solution(
     report: Callable[[str], None] = lambda _message: None,
 ) -> StringSolution:
     """Solve for free motions and displacements, to the tolerance away from wave fronts (collective)."""
-    started = perf_counter()
     report("free motions")
     free_motions = field_free_motions(comm, string, modes, positions)
-    seconds = perf_counter() - started
     report("response")
     judged = string.front_distance(positions, times) >= FIELD_FRONT_MARGIN
     # Between the times of the output f may be larger than at any of them.
@@ -75,7 +72,6 @@ def field_solution(
             "dofs": response.sizes.unknowns,
             "steps": response.sizes.steps,
         },
-        seconds={"modes": seconds, **response.seconds},
     )
 
 

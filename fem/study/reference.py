@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import frequency_errors
 from hydroelastic.fem.tank.field_model import build_mesh
 from hydroelastic.fem.tank.field_solution import solve_field
@@ -64,7 +63,7 @@ def reference_of(physical: Tank, count: int, *, half: bool) -> Reference:
 def _solved(physical: Tank, count: int, resolution: Resolution, *, half: bool) -> Reference:
     tank = physical.scaled()
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half)
-    field = solve_field(mesh, tank, resolution, count, Stopwatch(), half=half)
+    field = solve_field(mesh, tank, resolution, count, half=half)
     indices = list(range(len(field.modes.eigenvalues)))
     modes = [field.modes.completed(index) for index in indices]
     errors = frequency_errors(field, modes, [field.origins[index] for index in indices], resolution, tank).total

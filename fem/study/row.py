@@ -19,13 +19,12 @@ class StudyRow:
         element_size: largest element at the top, in tank lengths.
         grading: β of meshes graded towards the tips, 1 for uniform ones; ``None`` in the other families.
         tolerance: requested relative error; ``None`` except in the family ``"tolerance"``.
-        attempts: number of resolutions that were solved.
         unknowns: number of unknowns of ψ and of the surfaces, of both halves of a tank that is solved as two.
         errors: ω/ω_exact − 1 of the requested frequencies.
         floor: error of rounding and of the reference, below which errors are not significant.
         estimate: largest error by the estimate of the solver; ``None`` without an estimate.
         reasons: why the solver did not keep the tolerance; empty if it did.
-        seconds: time by stage, s.
+        seconds: time that it took, s.
         memory: increase of the resident memory during the solution, bytes, over all processes; ``None`` where the
             system does not report it.
     """
@@ -35,13 +34,12 @@ class StudyRow:
     element_size: float
     grading: float | None
     tolerance: float | None
-    attempts: int
     unknowns: int
     errors: tuple[float, ...]
     floor: float
     estimate: float | None
     reasons: tuple[str, ...]
-    seconds: dict[str, float]
+    seconds: float
     memory: int | None
 
     @property
@@ -53,8 +51,3 @@ class StudyRow:
     def lowest_error(self) -> float:
         """Relative error of the lowest frequency."""
         return abs(self.errors[0])
-
-    @property
-    def total_seconds(self) -> float:
-        """Time of all stages, s."""
-        return sum(self.seconds.values())

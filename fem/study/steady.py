@@ -25,11 +25,11 @@ def steadily_timed(solve: Callable[_Given, _Row]) -> Callable[_Given, _Row]:
     def timed(*given: _Given.args, **named: _Given.kwargs) -> _Row:
         row = solve(*given, **named)
         # All processes repeat, or none.
-        if row is None or MPI.COMM_WORLD.bcast(row.total_seconds >= _SHORT):
+        if row is None or MPI.COMM_WORLD.bcast(row.seconds >= _SHORT):
             return row
         for _ in range(_REPEATS):
             again = solve(*given, **named)
-            if again is not None and MPI.COMM_WORLD.bcast(again.total_seconds < row.total_seconds):
+            if again is not None and MPI.COMM_WORLD.bcast(again.seconds < row.seconds):
                 row = again
         return row
 

@@ -16,7 +16,6 @@ from hydroelastic.fem.inertia import count_below
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.modes import HIDDEN, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
@@ -102,16 +101,13 @@ def solve_field(
     tank: Tank,
     resolution: Resolution,
     count: int,
-    watch: Stopwatch,
     *,
     half: bool,
     models: Callable[..., PartPencils] | None = None,
 ) -> FieldSolution:
     """Assemble and solve for the lowest modes (collective)."""
-    with watch.stage("assemble"):
-        pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
-    with watch.stage("solve"):
-        return solve_parts(mesh, tank, resolution.shapes, pencils, count)
+    pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
+    return solve_parts(mesh, tank, resolution.shapes, pencils, count)
 
 
 def part_models(
@@ -206,8 +202,6 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
             completed=completed,
             zero_modes=sum(part.modes.zero_modes for part in parts),
             converged=sum(part.modes.converged for part in parts),
-            iterations=max(part.modes.iterations for part in parts),
-            solves=sum(part.modes.solves for part in parts),
             growing=tuple(
                 _extended(mode, one) for part, one in zip(parts, extensions, strict=True) for mode in part.modes.growing
             ),

@@ -16,7 +16,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.bodies.registry import toned_bodies
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
@@ -100,7 +100,6 @@ def infinite_frequency_limit(
     tank: Tank,
     first: Resolution,
     tolerance: float,
-    watch: Stopwatch,
     *,
     half: bool,
     user_mesh: TankMesh | None = None,
@@ -117,27 +116,21 @@ def infinite_frequency_limit(
         report("pressure-release tone")
     if has_added_mass:
         report("added mass at infinite frequency")
-    stage = "pressure release" if has_tones else "added mass"
 
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
         if user_mesh is None and not has_added_mass:
-            with watch.stage(stage):
-                released = released_modes(tank, resolution.shapes[0])
-                if released is not None:
-                    return _released(tank, released, resolution, tolerance)
-        with watch.stage(stage):
-            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
+            released = released_modes(tank, resolution.shapes[0])
+            if released is not None:
+                return _released(tank, released, resolution, tolerance)
+        mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
-        with watch.stage(stage):
-            pencils = liquids.pencils(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
+        pencils = liquids.pencils(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
         limit, causes = InfiniteFrequencyLimit(), []
         if has_tones:
-            with watch.stage("pressure release"):
-                limit, of_tones = _with_tones(limit, mesh, tank, resolution, pencils, tolerance)
+            limit, of_tones = _with_tones(limit, mesh, tank, resolution, pencils, tolerance)
             causes.append(of_tones)
         if has_added_mass:
-            with watch.stage("added mass"):
-                added_mass, of_added_mass = _added_mass(tank, resolution, shapes, pencils)
+            added_mass, of_added_mass = _added_mass(tank, resolution, shapes, pencils)
             limit = replace(limit, added_mass=added_mass)
             causes.append(of_added_mass)
         return Attempt(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.elastic_tone import mode_kinds
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.physics.round_plates import LOWEST_BENT

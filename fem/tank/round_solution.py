@@ -14,7 +14,7 @@ from hydroelastic.fem.bodies.round_plate import RoundShapes, plate_of
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone, SampledSurface
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.surface_line import along_the_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.orders import solve_by_order
@@ -161,10 +161,6 @@ def round_solution(
     orders, unit = found.orders, tank.plan.unit / physical.length
     problems = [OrderProblem(solution=one, order=order, unit=unit) for order, one in enumerate(orders)]
     scaled = tank.scaled()
-    seconds: dict[str, float] = {}
-    for one in orders:
-        for stage, value in one.seconds.items():
-            seconds[stage] = seconds.get(stage, 0.0) + value
     return LevelSolution(
         physical=tank,
         tank=scaled,
@@ -194,8 +190,5 @@ def round_solution(
             "surface_unknowns": sum(one.field.surface_unknowns for one in orders),
             "plate_shapes": sum(one.field.bodies[index].size for one in orders for index in one.tank.elastic),
         },
-        solves=sum(one.modes.solves for one in orders),
-        attempts=max(one.attempts for one in orders),
         reasons=found.reasons,
-        seconds=seconds,
     )

@@ -20,7 +20,7 @@ from hydroelastic.fem.bodies.registry import toned_bodies
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.mode_set import Mode, ModeSet
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
 from hydroelastic.fem.tank.field_model import distributed_user_mesh
@@ -120,18 +120,13 @@ def solve_tank(
 ) -> TankSolution:
     """Solve a tank between walls (collective)."""
     comm = comm or MPI.COMM_WORLD
-    watch = Stopwatch()
     given = comm.bcast(mesh is not None, root=0)
-    with watch.stage("plan"):
-        tank = physical.scaled()
-        first = liquids.first(tank, tolerance, modes)
-        half = halves and not given and is_mirror_image(tank)
+    tank = physical.scaled()
+    first = liquids.first(tank, tolerance, modes)
+    half = halves and not given and is_mirror_image(tank)
     user_mesh: TankMesh | None = None
     if given:
-        with watch.stage("mesh"):
-            user_mesh = distributed_user_mesh(
-                comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None
-            )
+        user_mesh = distributed_user_mesh(comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None)
         first = replace(first, tip_size=None)
     workable = workable_tolerance(tolerance, tank.depth)
     attempts = count(1)
@@ -140,19 +135,16 @@ def solve_tank(
     def limit() -> InfiniteFrequencyLimit:
         coarsest = liquids.first_of_limit(tank, workable) if user_mesh is None else first
         return infinite_frequency_limit(
-            comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, liquids=liquids, report=report
+            comm, tank, coarsest, workable, half=half, user_mesh=user_mesh, liquids=liquids, report=report
         )
 
     def solve(resolution: Resolution) -> TankSolution:
-        attempt = next(attempts)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
-        with watch.stage("mesh"):
-            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
+        report(f"attempt {next(attempts)}: degree {resolution.degree}, {resolution.modes} modes")
+        mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
         beside = limit()
-        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
-        with watch.stage("count"):
-            counted = count_is_confirmed(field)
-        return _judged(physical, tank, (tolerance, modes), resolution, field, counted, beside, watch, attempt)
+        field = solve_field(mesh, tank, resolution, resolution.modes + 1, half=half, models=liquids.pencils)
+        counted = count_is_confirmed(field)
+        return _judged(physical, tank, (tolerance, modes), resolution, field, counted, beside)
 
     found = adaptive_solve(
         first,
@@ -162,7 +154,7 @@ def solve_tank(
         tolerance,
         rounds=_MOST_ATTEMPTS,
     )
-    return replace(found.solution, seconds=dict(watch.seconds))
+    return found.solution
 
 
 def _next_resolution(solution: TankSolution, *, remesh: bool) -> Resolution | None:
@@ -194,21 +186,18 @@ def _judged(
     field: FieldSolution,
     counted: bool,
     limit: InfiniteFrequencyLimit,
-    watch: Stopwatch,
-    attempt: int,
 ) -> TankSolution:
     tolerance, count = asked_for
     tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(toned_bodies(tank)))
     complete = len(field.modes.eigenvalues) <= resolution.modes
     moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
-    with watch.stage("errors"):
-        asked = min(count, len(field.modes.eigenvalues))
-        beams = (tone.tone.index for tone in tones if tone.tone is not None)
-        floats = (mode.index for mode in moved if mode.index is not None)
-        indices = sorted({*range(asked), *beams, *floats})
-        modes = [field.modes.completed(index) for index in indices]
-        origins = [*(field.origins[index] for index in indices), *field.growing_origins]
-        causes = frequency_errors(field, [*modes, *field.modes.growing], origins, resolution, tank)
+    asked = min(count, len(field.modes.eigenvalues))
+    beams = (tone.tone.index for tone in tones if tone.tone is not None)
+    floats = (mode.index for mode in moved if mode.index is not None)
+    indices = sorted({*range(asked), *beams, *floats})
+    modes = [field.modes.completed(index) for index in indices]
+    origins = [*(field.origins[index] for index in indices), *field.growing_origins]
+    causes = frequency_errors(field, [*modes, *field.modes.growing], origins, resolution, tank)
     errors = np.full(len(field.modes.eigenvalues), np.nan)
     errors[indices] = causes.total[: len(indices)]
     solution = TankSolution(
@@ -226,9 +215,7 @@ def _judged(
         tones=tones,
         float_modes=moved,
         added_mass=limit.added_mass,
-        attempts=attempt,
         reasons=(),
-        seconds={},
     )
     return replace(solution, reasons=tuple(_reasons(solution)))
 

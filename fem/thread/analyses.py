@@ -23,4 +23,3 @@ class ThreadAnalyses:
     stability: tuple[Stability, ...]  # of each analysis of stability
     motions: tuple[MotionInSpace, ...]  # of each analysis of motion
     size: dict[str, int]  # cells, degree and unknowns of the equilibrium, steps of motions
-    seconds: dict[str, float]  # time by stage

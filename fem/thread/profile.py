@@ -86,7 +86,7 @@ class ThreadProfile:
         ends = self.position_table.at(self.nodes[[0, -1]])
         pulls = np.array([-self.force[0, 0], self.force[-1, 1]])
         for index, end in enumerate(self.model.ends):
-            carried = end.load.force
+            carried = end.load.dead_force
             if end.load.drag > 0.0 and self.model.stream is not None:
                 velocity = _velocity(self.model, ends[[index]])[0]
                 carried = carried + end.load.drag * np.linalg.norm(velocity) * velocity

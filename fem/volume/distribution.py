@@ -14,9 +14,9 @@ from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.refinement import refined_mesh
-from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, TooManyCellsError
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integral, mesh_volume, smallest_jacobians
-from hydroelastic.meshes.volume import VolumeSizes, depth_over, volume_mesh
+from hydroelastic.meshes.volume import MOST_CELLS, VolumeSizes, depth_over, volume_mesh
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank
 
 # Largest multiple of cells around curved walls where they are inverted, and of all where gmsh fails.
@@ -66,7 +66,7 @@ def distributed_volume(
     return mesh, _GEOMETRY * (abs(meshed / volume - 1.0) + straightened / min([volume, *displaced]))
 
 
-def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:
+def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors, most: float = MOST_CELLS) -> VolumeMesh:
     """A mesh with more cells around curved walls where they would be inverted, and with smaller ones everywhere where
     gmsh fails: large ones beside the thin rim of a hull, whose sides then cross."""
     failure: MeshError | None = None
@@ -75,8 +75,8 @@ def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> V
         if failure is not None and not isinstance(failure, FoldedError):
             refined = replace(refined, edge=sizes.edge / more, bulk=sizes.bulk / more)
         try:
-            return volume_mesh(tank, refined, mirrors)
-        except MisplacedError:
+            return volume_mesh(tank, refined, mirrors, most)
+        except (MisplacedError, TooManyCellsError):
             raise
         except MeshError as error:
             failure = failure or error

@@ -7,7 +7,6 @@ and are the first approximation of those of the finer space, double ones include
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import ceil
 
 import numpy as np
 from dolfinx.fem import petsc as fem_petsc
@@ -18,12 +17,12 @@ from hydroelastic.fem.mode_set import ModeSet
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import OF_RESIDUALS, ClassModes, solve_classes
-from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.refined_modes import refined_modes
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.model import VolumeModel
 from hydroelastic.fem.volume.pencil import SolverOf
+from hydroelastic.modal.plate.rectangle import ClassParity
 
 # Residual of modes over the root of the tolerance: it enters frequencies squared, over the gap to the modes beyond, and
 # shapes are then more accurate than those of a mesh that keeps the tolerance.
@@ -71,15 +70,11 @@ def volume_modes(
 
     def solve(parity: ClassParity, pencil: CoupledPencil, share: int) -> ModeSet:
         lower = coarse.pencils[parity]
-        before = lower.solver.solves
         given = coarse.displacements(parity, share)
         if len(given) < share:
             return solve_modes(pencil, share, shapes=0, tolerance=OF_RESIDUALS * tolerance)
         start = _prolonged(lower, pencil, given)
-        found = refined_modes(pencil, start, residual, beyond=len(pencils) > 1, report=report)
-        # Solutions in the coarser space by what they cost.
-        cheaper = (lower.solver.solves - before + coarse.found[parity].solves) * lower.liquid.size / pencil.liquid.size
-        return replace(found, solves=found.solves + ceil(cheaper))
+        return refined_modes(pencil, start, residual, beyond=len(pencils) > 1, report=report)
 
     try:
         return solve_classes(pencils, count, tolerance, solve=solve, shares=coarse.shares(count))

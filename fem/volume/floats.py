@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.optimize import linear_sum_assignment
 
-from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body, rigid_shapes
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.solid_floats import RigidMotion, SolidFloat

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 
 from hydroelastic.fem.liquid import ONE_LIQUID, Layer, LiquidSpace, liquid_space
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.plan.classes import mirrored_classes
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plates import plan_plate
-from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.fem.volume.floats import float_body
 from hydroelastic.fem.volume.matrices import volume_matrices
@@ -22,10 +21,10 @@ from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID, LOWER_LIQUID
 from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.meshes.volume import MIRRORS
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.obstacles import VerticalBaffle, mirrored_outline
-from hydroelastic.physics.plate import Strip
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
@@ -37,13 +36,9 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
     """Return x and y of the planes of symmetry of a dimensionless tank, ``None`` where there is none."""
     if isinstance(tank.plan, FilePlan) or isinstance(tank.bed, SurveyedBed):
         return None, None
-    outlines = tuple(
-        replace(plate, outline=rectangle_of(plate.outline)) if isinstance(plate.outline, Strip) else plate
-        for plate in tank.plates
-    )
     along, across = (
         mirror if mirror is not None and all(_is_in_plane(one, axis, mirror) for one in tank.floats) else None
-        for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
+        for axis, mirror in enumerate(mirrors_of(*plan_regions(tank)))
     )
     along, across = (
         mirror if mirror is not None and _are_symmetric(tank, axis, mirror) else None
@@ -121,12 +116,6 @@ class VolumeModel:
     def _surfaces(self) -> tuple[LiquidSurface, ...]:
         return moving_surfaces(self.liquid, waves=self.tank.top == "free")
 
-    @property
-    def parities(self) -> tuple[ClassParity, ...]:
-        """The symmetries: even (0) and odd (1) about each plane."""
-        choices: list[tuple[AxisParity, ...]] = [(None,) if mirror is None else (0, 1) for mirror in self.mirrors]
-        return tuple(product(choices[0], choices[1]))
-
     @cached_property
     def plates(self) -> dict[ClassParity, tuple[PlanPlate, ...]]:
         """The plates in the shapes of each symmetry."""
@@ -134,7 +123,7 @@ class VolumeModel:
             parity: tuple(
                 plan_plate(self.tank, index, number, parity) for index, number in enumerate(self.resolution.polynomials)
             )
-            for parity in self.parities
+            for parity in mirrored_classes(self.mirrors)
         }
 
     def pencil(self, parity: ClassParity, solver_of: SolverOf) -> CoupledPencil[LiquidSpace] | None:
@@ -151,5 +140,5 @@ class VolumeModel:
 
     def pencils(self, solver_of: SolverOf) -> dict[ClassParity, CoupledPencil]:
         """Return the problems in which something moves (collective)."""
-        found = {parity: self.pencil(parity, solver_of) for parity in self.parities}
+        found = {parity: self.pencil(parity, solver_of) for parity in mirrored_classes(self.mirrors)}
         return {parity: pencil for parity, pencil in found.items() if pencil is not None}

@@ -8,13 +8,17 @@ from math import ceil, log, pi
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.cost import DIRECT_UNKNOWNS
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
-from hydroelastic.fem.plan.box_resolution import plate_wavenumber, water_wavenumber
-from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
-from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS
+from hydroelastic.fem.plan.polynomials import (
+    more_polynomials,
+    plate_wavenumbers,
+    polynomial_counts,
+    water_wavenumber,
+)
 from hydroelastic.meshes.edge_layers import LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors, image_count
-from hydroelastic.meshes.volume import CELLS_OF_A_CUBE, VolumeSizes
+from hydroelastic.meshes.volume import CELLS_OF_A_CUBE, CELLS_OF_EDGES, VolumeSizes
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -44,8 +48,6 @@ _WITHIN = 2.0
 _LITTLE_MORE = 1.2
 # Cells that layers add to each cell along an edge, over n (n + 1); measured.
 _CELLS_OF_LAYERS = 10.0
-# Cells that grow from edges of plates with the size h there, over their length over h; measured.
-_CELLS_OF_EDGES = 37.0
 _MOST_REFINEMENTS = 4
 # Seconds that an unknown of degree 4 costs by multigrid, over those of one of degree 2; measured.
 _DEARER = 3.0
@@ -277,7 +279,7 @@ def _of_degree(
 ) -> VolumeResolution:
     kind = min(degree, 4)
     eigenvalue = expected_eigenvalue(tank, count)
-    wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
+    wavenumbers = plate_wavenumbers(tank, eigenvalue)
     radians = (tolerance / (3.0 * _OF_WAVES[kind])) ** (0.5 / degree)
     shortest = max(water_wavenumber(tank, eigenvalue), *wavenumbers, radians / _LARGEST)
     bulk = min(radians / shortest, 2.0 * tank.depth)
@@ -314,7 +316,7 @@ def expected_cells(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> fl
     """Return about the number of cells of a mesh between planes of symmetry, without making it."""
     lengths = [4.0 * plate.outline.area**0.5 for plate in tank.plates]
     lengths += [pi * sum(solid.size) / 2.0 for solid in tank.floats]
-    of_edges = _CELLS_OF_EDGES + _CELLS_OF_LAYERS * sizes.layers * (sizes.layers + 1)
+    of_edges = CELLS_OF_EDGES + _CELLS_OF_LAYERS * sizes.layers * (sizes.layers + 1)
     cells = CELLS_OF_A_CUBE * tank.plan.area * tank.depth / sizes.bulk**3 + of_edges * sum(lengths) / sizes.edge
     return float(cells / image_count(mirrors))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count as numbered
@@ -13,10 +14,10 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.cells import cell_corners, owned_cells
+from hydroelastic.fem.cost import DIRECT_UNKNOWNS, cost, free_memory
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
-from hydroelastic.fem.memory import release_matrices
 from hydroelastic.fem.mode_set import Mode
 from hydroelastic.fem.plan.classes import (
     ClassModes,
@@ -28,14 +29,13 @@ from hydroelastic.fem.plan.classes import (
 )
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.truncation import plate_errors
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import TooLargeError
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.cubic_errors import DEGREE, cubic_errors
 from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.eigenmodes import volume_modes
 from hydroelastic.fem.volume.loads import plate_loads
-from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import (
@@ -77,7 +77,6 @@ class VolumeSolution:
         errors: of their frequencies.
         counted: whether the number of modes is confirmed.
         count_method: by what: the inertia of a coarser model, or a second start.
-        attempts: number of resolutions that were solved.
         iterations: mean number of iterations of Laplace's equation; 0 of a direct solver.
     """
 
@@ -86,7 +85,6 @@ class VolumeSolution:
     errors: VolumeErrors
     counted: bool
     count_method: str
-    attempts: int
     iterations: float
 
     @property
@@ -132,7 +130,15 @@ def solve_volume(
 
         def require_room(cells: NodedMesh, refinements: int) -> None:
             unknowns, problems = unknown_count(cells, resolution.degree, refinements), image_count(mirrors)
-            require_memory(unknowns, resolution.degree, count, problems=problems, factorized=layered)
+            needed, free = (
+                cost(unknowns, resolution.degree, count, "volume", problems, layered).memory,
+                free_memory() + cost(0, 1, 0, "volume").memory,
+            )  # of the program
+            if needed > free:
+                raise TooLargeError(
+                    f"{unknowns} unknowns of degree {resolution.degree} need about {needed / 1e9:.1f} GB, and "
+                    f"{free / 1e9:.1f} GB are free: ask for a larger tolerance or fewer modes"
+                )
 
         mesh, geometry = distributed_volume(tank, sizes, mirrors, processes, require_room)
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
@@ -197,7 +203,6 @@ def solve_volume(
             ),
             counted=counted,
             count_method=BY_INERTIA if by_inertia else "residuals, and a second start vector",
-            attempts=attempt,
             iterations=_mean_iterations([one.pencil.solver for one in modes.classes]),
         )
 
@@ -236,19 +241,10 @@ def _refined(solution: VolumeSolution, count: int, tolerance: float) -> VolumeRe
         for one in solution.modes.classes:
             if isinstance(one.pencil.solver, LiquidSolver):
                 one.pencil.solver.release()
-        release_matrices(solution.model.mesh.mesh.comm)
+        # On several processes PETSc keeps objects until all let go, which Python does at other times on each.
+        gc.collect()
+        PETSc.garbage_cleanup(solution.model.mesh.mesh.comm)
     return finer
-
-
-def require_memory(unknowns: int, degree: int, modes: int, *, problems: int = 1, factorized: bool = False) -> None:
-    """Refuse a problem that does not fit into the memory of this process's computer."""
-    needed = memory_needed(unknowns, degree, modes, problems=problems, factorized=factorized)
-    free = free_memory()
-    if free is not None and needed > free:
-        raise TooLargeError(
-            f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "
-            "are free: ask for a larger tolerance or fewer modes"
-        )
 
 
 def direct_or_multigrid(

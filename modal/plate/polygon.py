@@ -31,7 +31,7 @@ from scipy.linalg import eigh, qr, solve_triangular
 from scipy.optimize import brentq
 
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
-from hydroelastic.modal.plate.rectangle import AxisParity
+from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.plate import Point, Polygon
 
 # r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
@@ -70,7 +70,7 @@ class PolygonBasis:
     middle: NDArray[np.float64]  # centre of the box around it, shape (2,)
     half: NDArray[np.float64]  # half its sides, shape (2,)
     degree: int  # of the polynomials
-    parity: tuple[AxisParity, AxisParity]  # even (0) or odd (1) about the middle along x and y, or both (``None``)
+    parity: ClassParity  # even (0) or odd (1) about the middle along x and y, or both (``None``)
     corners: tuple[CornerFunction, ...]  # functions of the corners that are kept
 
     @property
@@ -137,7 +137,7 @@ class PolygonBasis:
 
 @lru_cache(maxsize=64)
 def polygon_modes(
-    points: tuple[Point, ...], poisson_ratio: float, degree: int, parity: tuple[AxisParity, AxisParity] = (None, None)
+    points: tuple[Point, ...], poisson_ratio: float, degree: int, parity: ClassParity = (None, None)
 ) -> PolygonModes:
     """Return all Ritz modes of a free plate of one symmetry.
 

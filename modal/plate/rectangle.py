@@ -19,6 +19,8 @@ from hydroelastic.physics.plate import Edge
 
 AxisParity: TypeAlias = Literal[0, 1] | None
 """Even (0) or odd (1) about the middle of the plate along one axis, or both kinds (``None``)."""
+ClassParity: TypeAlias = tuple[AxisParity, AxisParity]
+"""Symmetry along x and along y."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +56,7 @@ def rectangle_modes(
     polynomials: int,
     *,
     edges: tuple[tuple[Edge, Edge], tuple[Edge, Edge]] = (("free", "free"), ("free", "free")),
-    parities: tuple[AxisParity, AxisParity] = (None, None),
+    parities: ClassParity = (None, None),
 ) -> RectangleModes:
     """Return all Ritz modes of one symmetry.
 

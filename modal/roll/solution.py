@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from time import perf_counter
 
 import numpy as np
 
@@ -31,7 +29,6 @@ class RollSolution:
     statistics: RollStatistics  # extremes from t = 0 to the last of these times
     angle_error: float  # estimated largest absolute error of the angle, rad, of the integration or by rounding
     ship_error: float  # what an error of the ship's natural frequency and damping adds to it, rad
-    seconds: dict[str, float]  # time by stage
 
     @property
     def relative_error(self) -> float:
@@ -60,7 +57,6 @@ def roll_solution(
         tolerance: of an integration, relative to the largest angle.
         relative_ship_error: error of k, and of n relative to k; ``None`` if they are exact.
     """
-    clock, stages = [perf_counter()], ["solve", "statistics"]
     end = float(times[-1])
     path: RollPath
     if ship.quadratic_damping:
@@ -68,14 +64,10 @@ def roll_solution(
     else:
         path = roll_path(ship, train, angle, rate)
     motion = path.motion(times)
-    clock.append(perf_counter())
     statistics = roll_statistics(path, end)
-    clock.append(perf_counter())
     ship_error = 0.0
     if relative_ship_error is not None:
         ship_error = _error_of_ship(ship, train, end, (angle, rate), relative_ship_error)
-        clock.append(perf_counter())
-        stages.append("errors")
     return RollSolution(
         ship=ship,
         train=train,
@@ -83,7 +75,6 @@ def roll_solution(
         statistics=statistics,
         angle_error=_error_of(path, end, abs(statistics.largest_angle)),
         ship_error=ship_error,
-        seconds={stage: later - before for stage, (before, later) in zip(stages, pairwise(clock), strict=True)},
     )
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
-from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +59,6 @@ class StringSolution:
     # series or a field solution only a blurred one
     front_margin: float
     size: dict[str, int]  # terms of a series; cells, degree, dofs and steps of a field solution
-    seconds: dict[str, float]  # time by stage
 
     @cached_property
     def beside_fronts(self) -> NDArray[np.bool_]:
@@ -114,10 +112,8 @@ def series_solution(
         tolerance: asked error of the displacement, relative to the largest one.
         modes: number of free motions.
     """
-    started = perf_counter()
     aim = max(_SHARE * tolerance, _LEAST_TOLERANCE)
     response = string_response(string, motion, positions, times, tolerance=aim)
-    summed = perf_counter()
     free_motions = series_free_motions(string, modes, positions)
     return StringSolution(
         string=string,
@@ -129,7 +125,6 @@ def series_solution(
         tolerance=tolerance,
         front_margin=SERIES_FRONT_MARGIN,
         size={"terms": response.terms},
-        seconds={"solve": summed - started, "modes": perf_counter() - summed},
     )
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.level_tank.quantities import FREQUENCY, KIND, MODE_OMEGA, MODES, MULTIPLICITY, ORDER
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
 from hydroelastic.output.pictures.colours import INK, mode_colours

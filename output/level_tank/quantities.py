@@ -151,7 +151,7 @@ MODES = Group("modes", "natural modes by ascending frequency", (
     FREQUENCY := Quantity("frequency_hz", "frequency of a mode", "Hz", "f", value=lambda it: it.omega / (2.0 * pi),
         shown=".6g"),
     RELATIVE_ERROR := Quantity("relative_error", "estimated relative error", "1",
-        value=lambda it: it.one.relative_error, shown=".1e"),
+        value=lambda it: it.one.relative_error, shown=".1e", contract=False),
     ORDER := Quantity("order", "order", "1", "n", value=lambda it: it.one.problem.order,
         note="of cos nθ about the axis, of cos nπy/B across a box; `null` where it is not separated"),
     SYMMETRY := Quantity("symmetry", "symmetry", value=lambda it: it.one.problem.symmetry, printed=False,
@@ -163,13 +163,13 @@ MODES = Group("modes", "natural modes by ascending frequency", (
         short="bending energy", value=lambda it: float(bending_fractions([it.one.mode], it.one.bodies)[0]),
         shown=".3f"),
     Quantity("residual", "relative residual of the eigenpair", "1", value=lambda it: it.one.mode.residual,
-        printed=False),
+        printed=False, contract=False),
 ), record=_modes, dimension="mode", prefix="mode")
 _TONE_PARTS = (
     TONE_BODY := Quantity("body", "number of the plate", "1"),
     Quantity("order", "order of its lowest elastic dry mode", "1", "n"),
     TONE_OMEGA := Quantity("omega", "frequency of the first elastic tone", "rad/s", "ω", error="relative_error"),
-    Quantity("relative_error", "estimated relative error of the tone", "1", shown=".1e"),
+    Quantity("relative_error", "estimated relative error of the tone", "1", shown=".1e", contract=False),
     TONE_INDEX := Quantity("index", "number of the tone among the modes", "1", note="`null` if it lies above them"),
     Quantity("index_in_order", "number of the tone among the modes of its order", "1"),
     Quantity("participation", "participation of the first dry mode", "1", "p", shown=".3f"),
@@ -179,13 +179,13 @@ _TONE_PARTS = (
     Quantity("added_mass_per_area", "added mass per area of the first dry mode", "kg/m^2", "m_a",
         error="added_mass_relative_error", note="(stiffness/ω² − mass) over ∫W²"),
     Quantity("added_mass_relative_error", "estimated relative error of the added mass", "1", shown=".1e",
-        printed=False),
+        printed=False, contract=False),
     Quantity("dry_omega", "frequency of the dry mode with the hydrostatic restoring", "rad/s",
         note="`null` without mass"),
     Quantity("pressure_release_omega", "frequency with ψ = 0 on the water", "rad/s",
         error="pressure_release_relative_error", note="`null` without open water"),
     Quantity("pressure_release_relative_error", "estimated relative error of that frequency", "1", shown=".1e",
-        printed=False),
+        printed=False, contract=False),
     TONE_NOTE := Quantity("note", "remark", printed=False),
 )
 FIRST_ELASTIC = Group("first_elastic", "first elastic tone of the first elastic plate", _TONE_PARTS, record=_first)
@@ -205,19 +205,17 @@ EXACT = Group("exact", "frequencies of a closed form", (
     FORMULA := Quantity("formula", "formula", printed=False),
     Quantity("order", "order", "1", "n"),
     Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
-    Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
+    Quantity("difference", "relative difference of the solution", "1", shown="+.1e", contract=False),
 ), record=_exact, dimension="exact_mode")
 SOLVER = Group("solver", "how the modes were found", (
     MODEL := Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
-    ATTEMPTS := Quantity("attempts", "resolutions that were solved", "1"),
     COUNT_CONFIRMED := Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
         value=lambda tank: tank.counted, note="by what, `count_method` tells"),
     COUNT_METHOD := Quantity("count_method", "what confirms the number of modes",
         note='`"inertia"` of the matrices of a coarser model; of large volumes residuals and a second start'),
     LARGEST_RESIDUAL := Quantity("largest_residual", "largest residual of a mode", "1",
         value=lambda tank: tank.residual, shown=".1e"),
-    Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
-), record=lambda it: it.tank)
+), record=lambda it: it.tank, contract=False)
 SIZE = Group("size", "size of the problem", (
     PROBLEMS := Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
     DEGREE := Quantity("degree", "polynomial degree of ψ", "1"),
@@ -233,10 +231,11 @@ SIZE = Group("size", "size of the problem", (
     PROCESSES,
     MEMORY_OF_A_PROCESS := Quantity("memory_of_a_process", "largest memory of one process", "byte",
         value=lambda _: largest_memory()),
-), record=lambda it: it.tank.size)
+), record=lambda it: it.tank.size, contract=False)
 # Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (
-    array("point", "number of a place", None, "point", lambda it: np.arange(len(it.sample.points), dtype=np.int32)),
+    array("point", "number of a place", None, "point", lambda it: np.arange(len(it.sample.points), dtype=np.int32),
+        contract=False),
     array("shape", "mode, with the second one of a pair after the first", None, "shape",
         lambda it: np.array(it.sample.names)),
     array("x", "x of a place on the still surface", "m", "point", lambda it: it.sample.points[:, 0]),

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.level_bed.patches import Patch
 from hydroelastic.fem.level_bed.solution import LevelSolution, PlanProblem
+from hydroelastic.fem.plan.patches import Patch
 from hydroelastic.output.reading import Reading
 from hydroelastic.physics.dofs import body_name
 

@@ -38,7 +38,7 @@ _CURVE = Group("response_curve", "response between the frequencies", (
     water.OMEGA, water.WAVES_FROM, water.WAVES, water.REFLECTION, water.TRANSMISSION, water.AMPLITUDES,
     water.ABSORPTION, water.DRIFT_FORCE,
     own_array("basis_error", "estimated relative error by the reduced basis", "omega", lambda it: it.relative_error,
-        column="basis_error"),
+        column="basis_error", contract=False),
 ))
 _PRESSURE = Group("pressure", "pressure along a hull", (HULL_BODY, water.OMEGA, water.WAVES, HULL_X, HULL_Y, PRESSURE))
 # fmt: on

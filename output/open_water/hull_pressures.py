@@ -71,7 +71,7 @@ HULLS = Group("hulls", "the pressure along the hull of each float", (
         f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
         unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
     joined_array("pressure_error", "its estimated error anywhere", "omega wave", "omega wave_direction wave",
-        unit="Pa/m", variable="pressure_error_on_body_{.number}", printed=False, column=""),
+        unit="Pa/m", variable="pressure_error_on_body_{.number}", printed=False, column="", contract=False),
     own_array("azimuths", "angle about the axis of body {.number} from the direction +x", _AROUND,
         lambda it: it.azimuths, unit="rad", variable=_AROUND, column="", note="`null` of sections"),
     own_array("partial_pressures", "p_n of the pressure sum p_n cos(n theta) of body {.number} about its axis",

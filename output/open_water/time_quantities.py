@@ -23,20 +23,20 @@ IMPULSE_RESPONSE = Group("impulse_response", "impulse responses of radiation, by
     INFINITE_FREQUENCY_ADDED_MASS := joined_array("infinite_frequency_added_mass", "added mass at infinite frequency",
         OF_BODIES, variable="impulse_infinite_frequency_added_mass", **_INERTIA),
     joined_array("omega", "angular frequency at which the impulse responses are checked", "impulse_omega", unit="rad/s",
-        symbol="ω", shown=".6g", variable="impulse_omega"),
+        symbol="ω", shown=".6g", variable="impulse_omega", contract=False),
     joined_array("added_mass", "added mass by the impulse responses", f"impulse_omega {OF_BODIES}", symbol="a",
-        variable="impulse_added_mass", **_INERTIA),
+        variable="impulse_added_mass", contract=False, **_INERTIA),
     joined_array("radiation_damping", "radiation damping by the impulse responses", f"impulse_omega {OF_BODIES}",
-        symbol="b", unit="kg/(m s)", of_roll=("kg/s", "kg m/s"), variable="impulse_radiation_damping"),
+        symbol="b", unit="kg/(m s)", of_roll=("kg/s", "kg m/s"), variable="impulse_radiation_damping", contract=False),
     joined_array("causality_error", "difference of added mass and damping by the impulse responses and in the "
         "frequency domain, relative to the whole of both motions at each frequency", "impulse_omega", unit="1",
-        short="causality error", shown=".1e"),
+        short="causality error", shown=".1e", contract=False),
     joined_array("ogilvie_error", "difference of the added mass at infinite frequency by Ogilvie's relation and by its "
-        "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e"),
+        "limit, relative to the same", "impulse_omega", unit="1", short="a∞ error", shown=".1e", contract=False),
     joined_array("impulse_response_error", "estimated error of the impulse responses, relative to their values at "
-        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error"),
+        "t = 0", "impulse_time", unit="1", symbol="δK", shown=".1e", variable="impulse_response_error", contract=False),
     IMPULSE_ERROR := joined_array("relative_error", "estimated relative error of the impulse responses", "", unit="1",
-        shown=".1e", variable="impulse_relative_error"),
+        shown=".1e", variable="impulse_relative_error", contract=False),
 ), dimension="impulse_response_analysis", note=NUMBERED)
 MOTION = Group("motion", "motions in waves over time, by analysis", (
     MOTION_TIMES := joined_array("times", "time after the waves begin", "motion_time", unit="s", symbol="t",
@@ -63,5 +63,5 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
         variable="motion_standard_deviation", **_MOTION),
     LARGEST := joined_array("largest", "largest motion after the ramp", "dof", variable="motion_largest", **_MOTION),
     MOTION_ERROR := joined_array("relative_error", "estimated error of the motions relative to the largest", "",
-        unit="1", shown=".1e", variable="motion_relative_error"),
+        unit="1", shown=".1e", variable="motion_relative_error", contract=False),
 ), dimension="motion_analysis", note=NUMBERED)

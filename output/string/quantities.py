@@ -114,13 +114,13 @@ MODES = Group("modes", "free motions e^{pt} by ascending magnitude, one of each 
     Quantity("decay", "rate at which a free motion decays", "1/s", "−Re p", value=lambda mode: -mode.root.real),
     KIND := Quantity("kind", "kind", value=lambda mode: "oscillating" if mode.root.imag > 0.0 else "aperiodic",
         note='`"oscillating"` or `"aperiodic"`'),
-    Quantity("relative_error", "relative error", "1", shown=".1e", note="estimated, of the root"),
+    Quantity("relative_error", "relative error", "1", shown=".1e", note="estimated, of the root", contract=False),
 ), record=_free_motions, dimension="mode", prefix="mode")
 BESIDE_FRONTS = Group("beside_fronts",
     "values beside wave fronts, where the displacement or a derivative of it jumps", (
     WITHIN := Quantity("within", "distance from a front up to which a value is beside it, in travel times", "1"),
     POINTS := Quantity("points", "number of values beside fronts", "1"),
-    BESIDE_ERROR := Quantity("absolute_error", "estimated error beside fronts", "m", shown=".1e"),
+    BESIDE_ERROR := Quantity("absolute_error", "estimated error beside fronts", "m", shown=".1e", contract=False),
 ))
 RESPONSE = Group("response", "displacements at the heights and times asked", (
     LARGEST_DISPLACEMENT := Quantity("largest_displacement", "largest displacement at the heights and times asked", "m",
@@ -130,8 +130,9 @@ RESPONSE = Group("response", "displacements at the heights and times asked", (
     AT_TIME := Quantity("at_time", "time of the largest displacement", "s"),
     UNTIL := Quantity("until", "last time", "s", shown=".6g", printed=False),
     Quantity("points", "values", "1"),
-    Quantity("absolute_error", "estimated error away from fronts", "m", printed=False),
-    Quantity("relative_error", "estimated error, of the largest", "1", shown=".1e", note="away from fronts"),
+    Quantity("absolute_error", "estimated error away from fronts", "m", printed=False, contract=False),
+    Quantity("relative_error", "estimated error, of the largest", "1", shown=".1e", note="away from fronts",
+        contract=False),
     BESIDE_FRONTS,
 ), record=_response)
 STEADY = Group("steady", "steady motion under a sine", (
@@ -152,7 +153,7 @@ _ARRAYS = (
     array("mode", "number of the mode", None, "mode", lambda it: np.arange(1, len(it.solution.free_motions.roots) + 1)),
     array("displacement", "displacement to the side", "m", "position time", lambda it: it.solution.displacement),
     array("absolute_error", "estimated error of the displacement", "m", "position time",
-        lambda it: it.solution.absolute_error),
+        lambda it: it.solution.absolute_error, contract=False),
     array("beside_front", "whether a wave front is near", None, "position time", lambda it: it.solution.beside_fronts),
     array("root", "root p of a free motion e^{pt}", "1/s", "mode", lambda it: it.solution.free_motions.roots),
     array("mode_shape", "shape of a free motion, its largest value 1", "1", "mode position",
@@ -168,6 +169,6 @@ HANGING_STRING = Group("", "a hanging string whose upper end is moved", (
         DOFS := Quantity("dofs", "number of its unknowns", "1"),
         STEPS := Quantity("steps", "number of its steps in time", "1"),
         PROCESSES,
-    ), record=lambda result: result.solution.size),
+    ), record=lambda result: result.solution.size, contract=False),
     *_ARRAYS,
 ))

@@ -26,16 +26,18 @@ SYMMETRY = Quantity("symmetry", "symmetry about the middle of the tank", short="
 KIND = Quantity("kind", "what holds most of the potential energy", short="kind",
     note='`"sloshing"`, of two liquids `"interface wave"` or `"surface wave"`; `"heave"`, `"pitch"`, `"sway"`, '
     '`"roll"`; `"elastic"`: bending and hydrostatic energy of the elastic shapes of all beams together')
-RELATIVE_ERROR = Quantity("relative_error", "estimated relative error", "1", short="relative error", shown=".1e")
+RELATIVE_ERROR = Quantity("relative_error", "estimated relative error", "1", short="relative error", shown=".1e",
+    contract=False)
 _ADDED_MASS_ERROR = Quantity("added_mass_relative_error", "estimated relative error of the added mass", "1",
-    shown=".1e")
+    shown=".1e", contract=False)
 MODES = Group("modes", "the modes asked for, in ascending order", (
     MODE_OMEGA := Quantity("omega", "angular frequency of a mode", "rad/s", "ω", error="relative_error"),
     FREQUENCY := Quantity("frequency_hz", "frequency of a mode", "Hz", "f", shown=".6g"),
     RELATIVE_ERROR, KIND, SYMMETRY,
     BENDING := Quantity("elastic_energy_fraction", "part of the potential energy in bending of beams", "1",
         short="bending energy", shown=".3f"),
-    Quantity("residual", "relative residual of the equations", "1", "‖Kζ − λ(Mζ + ρCᵀψ)‖/‖Kζ‖ by K⁻¹", printed=False),
+    Quantity("residual", "relative residual of the equations", "1", "‖Kζ − λ(Mζ + ρCᵀψ)‖/‖Kζ‖ by K⁻¹", printed=False,
+        contract=False),
 ), record=lambda it: natural_modes(it.tank), dimension="mode", prefix="")
 FIRST_ELASTIC_TONES: Group = Group("first_elastic_by_body", "first elastic tone of each beam", (
     TONE_BODY := Quantity("body", "number of the body", "1"),
@@ -45,7 +47,8 @@ FIRST_ELASTIC_TONES: Group = Group("first_elastic_by_body", "first elastic tone 
         "angular frequency of the tone in the limit of infinite frequency", "rad/s",
         error="pressure_release_relative_error",
         note="with ψ = 0 on the water; ρψ is continuous across an interface; `null` without waves"),
-    Quantity("pressure_release_relative_error", "estimated relative error in the limit of infinite frequency", "1"),
+    Quantity("pressure_release_relative_error", "estimated relative error in the limit of infinite frequency", "1",
+        contract=False),
     TONE_OMEGA := Quantity("omega", "angular frequency of the first elastic tone", "rad/s", "ω", error="relative_error",
         note="of the mode of largest participation; `null` if no mode represents it, `note` has the reason"),
     RELATIVE_ERROR,
@@ -105,7 +108,8 @@ FLOATS = Group("floats", "each float", (
         HIGH_FREQUENCY_ADDED_MASS := Quantity("added_mass", "added mass in the order of the motions", variable="",
             note="kg/m, of roll kg·m, coupling of roll kg; the dataset has `infinite_frequency_added_mass`"),
         HIGH_FREQUENCY_ERROR := Quantity("relative_error",
-            "estimated error of an added mass, of the root of the product of its diagonal entries", "1"),
+            "estimated error of an added mass, of the root of the product of its diagonal entries", "1",
+            contract=False),
     ), note="`null` under a lid on one liquid"),
     FLOAT_MODES, FLOAT_ESTIMATES,
 ),  record=lambda it: [float_values(it.tank, index, (it.floats or {}).get(index)) for index in it.tank.tank.rigid],
@@ -142,11 +146,10 @@ TANK = Group("", "a closed tank", (
     EXACT := Group("exact", "each mode of a tank that has a closed form", (
         FORMULA := Quantity("formula", "formula"),
         Quantity("omega", "angular frequency of the exact solution", "rad/s", "ω"),
-        EXACT_DIFFERENCE := Quantity("difference", "relative difference of the field solution from the exact one", "1"),
+        EXACT_DIFFERENCE := Quantity("difference", "relative difference of the field solution from the exact one", "1",
+            contract=False),
     ), record=lambda it: exact_modes(it.tank), dimension="exact_mode"),
     SOLVER := Group("solver", "the solution of the eigenvalue problem", (
-        ATTEMPTS := Quantity("attempts", "number of resolutions tried", "1"),
-        Quantity("pairs_asked", "number of modes asked", "1", value=lambda it: it.resolution.modes + 1),
         Quantity("pairs_converged", "number of modes that converged", "1", value=lambda it: it.modes.converged),
         Quantity("pairs_kept", "number of modes kept", "1", value=lambda it: len(it.asked)),
         COUNT_CONFIRMED := Quantity("count_confirmed_by_inertia",
@@ -154,22 +157,14 @@ TANK = Group("", "a closed tank", (
             value=lambda it: it.counted),
         LARGEST_RESIDUAL := Quantity("largest_residual", "largest residual of the modes", "1",
             value=lambda it: max((mode.residual for mode in it.asked), default=0.0), shown=".1e"),
-        Quantity("restarts", "number of restarts", "1", value=lambda it: it.modes.iterations),
-        Quantity("laplace_solutions", "number of solutions for ψ", "1", value=lambda it: it.modes.solves),
-    ), record=lambda it: it.tank),
+    ), record=lambda it: it.tank, contract=False),
     SIZE := Group("size", "size of the problem", (
         CELLS := Quantity("cells", "number of cells", "1", value=lambda it: it.field.mesh.cell_count),
         DOFS := Quantity("dofs", "number of unknowns of ψ and of the surfaces", "1", value=lambda it: it.field.dofs),
         DEGREE := Quantity("degree", "degree of ψ", "1", value=lambda it: it.resolution.degree),
         SURFACE_UNKNOWNS := Quantity("surface_unknowns", "number of unknowns of the surfaces", "1",
             value=lambda it: it.field.surface_unknowns),
-        HALVES := Quantity("halves",
-            "whether the cells are those of the left half, and the unknowns those of both kinds of modes",
-            value=lambda it: it.field.half),
-        Quantity("beam_shapes", "number of dry modes of each beam", "1",
-            value=lambda it: [it.resolution.shapes[index] for index in it.tank.elastic],
-            dimensions=("size_beam_shapes_entry",)),
         PROCESSES,
-    ), record=lambda it: it.tank),
+    ), record=lambda it: it.tank, contract=False),
     *ARRAYS,
 ))

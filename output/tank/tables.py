@@ -169,10 +169,9 @@ def _notes(estimates: dict[str, Reading]) -> tuple[str, ...]:
 def tank_cost(summary: Reading) -> str:
     """Return size and cost of the solution."""
     size = summary[tank.SIZE]
-    where = " in half the tank, symmetric and antisymmetric" if size[tank.HALVES] else ""
     return (
         f"{size[tank.CELLS]} cells, degree {size[tank.DEGREE]}, {size[tank.DOFS]} unknowns "
-        f"({size[tank.SURFACE_UNKNOWNS]} on the surface){where}{spent(summary)}"
+        f"({size[tank.SURFACE_UNKNOWNS]} on the surface){spent(summary)}"
     )
 
 

@@ -11,20 +11,20 @@ _ESTIMATE = (
     ORDER := Quantity("order", "order of the theory", "1", note="`null` of an exact one"),
     PARAMETER := Quantity("parameter", "what must be small", note="`\"\"` of an exact one"),
     SMALL := Quantity("small", "its value", "1", shown=".2g"),
-    ESTIMATE_SECONDS := Quantity("seconds", "time that the estimate took", "s", shown=".3f"),
+    ESTIMATE_SECONDS := Quantity("seconds", "time that the estimate took", "s", shown=".3f", contract=False),
 )
 _BESIDE = (
     DIFFERENCE := Quantity("difference", "difference from the field solution", short="difference", shown=".1e"),
     Quantity("field_error", "estimated error of the field solution", short="error of field",
-        shown=".1e"),
+        shown=".1e", contract=False),
     LEFT_OUT := Quantity("left_out", "estimate of what the theory leaves out", short="left out", shown=".1e"),
     EXPLAINED := Quantity("explained", "whether both explain the difference", short="explained"),
 )
 COMPARISON = Group("comparison", "estimates beside the field solution", (
     FIELD := Group("field", "the field solution", (
-        POSITION_ERROR := Quantity("position_error", "estimated error of positions", "m", shown=".1e"),
-        TENSION_ERROR := Quantity("tension_error", "estimated error of tensions", "N", shown=".1e"),
-        SECONDS := Quantity("seconds", "time that it took", "s", shown=".2f"),
+        POSITION_ERROR := Quantity("position_error", "estimated error of positions", "m", shown=".1e", contract=False),
+        TENSION_ERROR := Quantity("tension_error", "estimated error of tensions", "N", shown=".1e", contract=False),
+        SECONDS := Quantity("seconds", "time that it took", "s", shown=".2f", contract=False),
     )),
     SHAPES := Group("shapes", "estimates of the equilibrium", (
         *_ESTIMATE,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydroelastic.fem.cost import DIRECT_UNKNOWNS, cost, free_memory
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue, line_nodes, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.output.digits import number
@@ -18,6 +19,9 @@ from hydroelastic.scenes.level_tank.solve import misplacements, require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 
+_TRIANGLES = 2.3  # with the size of a square's side, in it
+MOST_CHECKED = 200_000
+"""Tetrahedra that are made for a check: gmsh makes 27,000 in a second."""
 _TOPS = {
     "free": "gψ_z = ω²ψ, a free surface with waves",
     "rigid": "ψ_z = 0, a rigid lid",
@@ -121,7 +125,7 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
     scaled = tank.scaled()
     asked = scene.accuracy
     if isinstance(scaled, VolumeTank):
-        yield from _size_of_volume(scaled, asked.tolerance, asked.modes)
+        yield from _size_of_volume(scene, scaled, asked.tolerance, asked.modes)
         return
     separation = separated(scaled)
     if separation is None:
@@ -142,74 +146,80 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
     yield "  Each is solved with one degree and one layer at the edges more too, from which its error follows."
     if tolerance > asked.tolerance:
         yield f"  Double precision cannot reach {asked.tolerance:g}: the tolerance is {tolerance:.0e} instead."
+    unknowns, orders = elements * resolution.degree + 1, 2.0 * asked.modes**0.5 + 2.0
+    yield str(cost(unknowns, resolution.degree, asked.modes, "level bed", orders))
 
 
 def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
-    from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
-    from hydroelastic.fem.plan.box_resolution import box_resolution
+    from hydroelastic.fem.level_bed.choice import MODEL_WORDS
     from hydroelastic.fem.plan.plan import plan_resolution
 
-    model = level_model(tank)
-    words = MODEL_WORDS[model]
+    words = MODEL_WORDS["plan"]
     yield f"{words[0].upper()}{words[1:]}; no volume mesh."
-    highest = expected_eigenvalue(tank, modes)
-    resolution = (box_resolution if model == "box" else plan_resolution)(tank, tolerance, highest)
+    resolution = plan_resolution(tank, tolerance, expected_eigenvalue(tank, modes))
     layers = f"{resolution.layers} layers on each side of an edge"
     polynomials = " + ".join(map(str, resolution.polynomials))
     shapes = f", {polynomials} polynomials along each direction of the plates" if polynomials else ""
     yield f"First attempt: degree {resolution.degree}, {layers}{shapes}."
-    if model == "box":
-        yield "  Plates in the middle of both sides leave four problems of a quarter of the tank, of one side two."
-        yield "  The added mass in a finer space shows the error of each mode."
-    else:
-        yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."
+    yield "  Walls and plates with a plane of symmetry leave two problems of a half of the tank, with two planes four."
+    yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."
+    edges = resolution.layers * sum(4.0 * plate.outline.area**0.5 for plate in tank.plates) / resolution.size
+    unknowns = 0.5 * resolution.degree**2 * (_TRIANGLES * tank.plan.area / resolution.size**2 + 2.0 * edges)
+    yield str(cost(unknowns, resolution.degree, modes, "plan"))
 
 
-def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
+def _size_of_volume(scene: LevelTankScene, tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
     from hydroelastic.fem.level_bed.choice import MODEL_WORDS
     from hydroelastic.fem.volume.distribution import unfolded_volume
-    from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
     from hydroelastic.fem.volume.resolution import expected_unknowns, volume_resolution, with_refinements
     from hydroelastic.meshes.plan_loops import image_count
-    from hydroelastic.meshes.tagged_mesh import MeshError
+    from hydroelastic.meshes.tagged_mesh import MeshError, TooManyCellsError
     from hydroelastic.meshes.tetrahedra import unknown_count
+    from hydroelastic.meshes.volume import MOST_CELLS
 
     words = MODEL_WORDS["volume"]
     yield f"{words[0].upper()}{words[1:]}."
     mirrors = volume_mirrors(tank)
     resolution = volume_resolution(tank, tolerance, modes, mirrors)
-    try:
-        sizes = with_refinements(tank, resolution.sizes, mirrors)
-        with misplacements():
-            made = unfolded_volume(tank, sizes, mirrors)
-    except MeshError as error:
-        raise cannot_be_meshed(error) from error
-    refinements = sizes.refinements if made.surfaces else 0
-    unknowns = unknown_count(made.noded, resolution.degree, refinements)
+    sizes, degree, parts = with_refinements(tank, resolution.sizes, mirrors), resolution.degree, image_count(mirrors)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
-    parts = image_count(mirrors)
     if parts > 1:
         yield f"  Planes of symmetry leave {parts} problems on {'a half' if parts == 2 else 'a quarter'} of the tank."
+    refinements, about = 0, ""
+    try:
+        with misplacements():
+            made = unfolded_volume(tank, sizes, mirrors, MOST_CHECKED)
+        refinements = sizes.refinements if made.surfaces else 0
+        cells, unknowns = len(made.noded.cells) * 8**refinements, unknown_count(made.noded, degree, refinements)
+    except TooManyCellsError as error:
+        if error.cells > MOST_CELLS:
+            raise cannot_be_meshed(error, scene) from error
+        about, cells = "too large to be meshed here, by its sizes about ", error.cells * 8**sizes.refinements
+        unknowns = round(cells * degree**3 / 6.0)
+    except MeshError as error:
+        raise cannot_be_meshed(error, scene) from error
     yield (
-        f"First attempt: degree {resolution.degree}, {len(made.noded.cells) * 8**refinements} tetrahedra, "
-        f"{unknowns} unknowns{shapes if resolution.polynomials else ''}."
+        f"First attempt: {about}degree {degree}, {cells} tetrahedra, {unknowns} unknowns"
+        f"{shapes if resolution.polynomials else ''}."
     )
     if refinements:
-        yield f"  gmsh makes {len(made.noded.cells)}, which all processes refine {refinements} times together."
-    layered = bool(sizes.layers)
+        yield f"  gmsh makes {cells // 8**refinements}, which all processes refine {refinements} times together."
+    layered, free = bool(sizes.layers), free_memory()
     solver = "a factorization" if layered or unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
-    free = free_memory()
-    there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
-    needed = memory_needed(unknowns, resolution.degree, modes, problems=parts, factorized=layered) / 2**30
-    yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
-    if free is not None and needed > free / 2**30:
-        yield "  That does not fit, and a run ends at once: ask for a larger tolerance or fewer modes."
+    yield f"  Laplace's equation by {solver}."
+    expected = cost(unknowns, degree, modes, "volume", parts, layered)
+    if expected.memory > free:
+        yield (
+            f"  That needs {expected.memory / 1e9:.1f} GB, more than the {free / 1e9:.1f} GB that are free: "
+            "a run ends at once. Ask for a larger tolerance or fewer modes."
+        )
     usual = volume_resolution(tank, tolerance, modes, mirrors, severity=1.0)
     if usual != resolution:
-        later, factorized = round(expected_unknowns(tank, usual, mirrors)), bool(usual.sizes.layers)
-        most = memory_needed(later, usual.degree, modes, problems=parts, factorized=factorized) / 2**30
-        yield f"  Where it shows that the edges ask for more, about {later:.1g} unknowns and {most:.1f} GiB follow."
+        unknowns = round(expected_unknowns(tank, usual, mirrors))
+        expected = cost(unknowns, usual.degree, modes, "volume", parts, bool(usual.sizes.layers))
+        yield f"  Where it shows that the edges ask for more, about {unknowns:.1g} unknowns follow."
+    yield str(expected)
     shown = "The decay of ψ with the degree" if resolution.degree > 2 else "What the third degree adds to ψ"
     yield f"  {shown}, and the volume of curved cells, show the error; where it is too large"
     yield "  cells are made smaller at the edges of plates, elsewhere, or at curved walls."

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.level_tank.floats import floats_section
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes, sample_volume

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.modal.plate.estimates import plate_estimates
 from hydroelastic.output.level_tank.floats import FloatAtRest, floats_at_rest
@@ -35,7 +35,6 @@ class SolvedLevelTank:
         floats: those with draught, at rest.
         exact: the frequencies of a closed form, if there is one, ascending.
         estimates: those of the plates.
-        estimating: the time that they took, by stage.
     """
 
     scene: LevelTankScene | OrderedTankScene
@@ -43,17 +42,11 @@ class SolvedLevelTank:
     floats: tuple[FloatAtRest, ...] = ()
     exact: tuple[ExactMode, ...] = ()
     estimates: tuple[PlateEstimate, ...] = ()
-    estimating: dict[str, float] = field(default_factory=dict)
 
     @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the tolerance is not kept; empty if it is."""
         return self.tank.reasons
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """Time by stage, s."""
-        return self.tank.seconds | self.estimating
 
 
 def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
@@ -64,13 +57,11 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     from hydroelastic.meshes.tagged_mesh import MeshError
 
     physical = physical_level_tank(scene)
-    watch = Stopwatch()
     exact: tuple[ExactMode, ...] = ()
     estimates: tuple[PlateEstimate, ...] = ()
     if not isinstance(physical, VolumeTank) or physical.is_level:
-        with watch.stage("estimates"):
-            exact = exact_frequencies(physical, scene.accuracy.modes)
-            estimates = plate_estimates(physical)
+        exact = exact_frequencies(physical, scene.accuracy.modes)
+        estimates = plate_estimates(physical)
     try:
         with misplacements():
             solution = solve_smallest_model(
@@ -79,7 +70,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     except (EigenSolverError, TooLargeError) as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     if not solution.modes:
         wrong = "nothing oscillates: no water is free, and no plate can move against a restoring force"
         raise SceneError(Problem(key="[[body]]", wrong=wrong, remedy="Leave a part of the top free"), file=None)
@@ -89,7 +80,6 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
         floats=floats_at_rest(physical),
         exact=exact,
         estimates=estimates,
-        estimating=watch.seconds,
     )
 
 

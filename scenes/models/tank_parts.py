@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
@@ -136,7 +137,6 @@ class TankParts(SceneModel):
     """
 
     _folder: Path = PrivateAttr(default=Path())
-    _source: str | None = PrivateAttr(default=None)
 
     if TYPE_CHECKING:
 
@@ -181,16 +181,12 @@ class TankParts(SceneModel):
             """Files for other programs."""
 
     def model_post_init(self, context: Any) -> None:
-        """Keep the folder of the scene file, to which paths of outlines are relative, and the file's name in messages.
-
-        Only where a file is named: otherwise scenes of equal values compare equal.
-        """
+        """Keep the file's name for messages, which is not compared, and with outlines the folder, which is."""
         if context is None:
             return
         if any(body.file is not None for _, body in self.floats):
             self._folder = context["folder"]
-        if self.mesh is not None:
-            self._source = context.get("source")
+        self.__dict__["source"] = context.get("source")
 
     @property
     def stretch(self) -> tuple[float, float]:
@@ -214,10 +210,10 @@ class TankParts(SceneModel):
         state = (self.folder / body.file).stat()
         return state.st_mtime_ns, state.st_size
 
-    @property
+    @cached_property
     def source(self) -> str | None:
-        """Name of the scene file in messages about a user mesh; ``None`` if there is no file."""
-        return self._source
+        """Name of the scene file in messages, with its overrides; ``None`` if there is no file."""
+        return None
 
     @property
     def layers(self) -> tuple[Liquid, ...]:

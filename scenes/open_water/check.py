@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, isfinite, pi, sqrt
+from math import ceil, isfinite, log10, pi, sqrt
 
+from hydroelastic.fem.cost import cost
+from hydroelastic.fem.open_water.field_model import Band
+from hydroelastic.fem.open_water.high_frequency import highest_meshed_frequency
+from hydroelastic.fem.open_water.low_frequency import lowest_meshed_frequency
+from hydroelastic.fem.open_water.model_building import first_size
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.output.open_water.tables import infinite_draught_message
@@ -28,11 +34,12 @@ from hydroelastic.scenes.tank.check import modelled_tank
 
 # Lowest frequency of a search for resonances over the highest, roughly.
 _LOWEST_TONE = 0.1
+# Solutions at other frequencies for each analysis, the least and for each digit of the tolerance; measured.
+_LEAST_SOLUTIONS, _SOLUTIONS_OF_A_DIGIT = 14.0, 2.5
 
 
 def check_open(scene: TankParts) -> Iterator[Section]:
-    """Yield the description of open water, the analyses and the outgoing waves; a decay is meshed, to estimate its
-    cost."""
+    """Yield the description of open water, the analyses, their cost and the outgoing waves; one mesh is made."""
     waves = Section(title="Outgoing waves", lines=tuple(open_waves(scene)))
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
 
@@ -42,8 +49,6 @@ def open_requests(scene: TankParts) -> Iterator[str]:
     yield f"Open water, to a relative error of {scene.accuracy.tolerance:g}:"
     for number, analysis in enumerate(scene.analyses, 1):
         yield f"  {number}. {_request(scene, analysis)}"
-        if isinstance(analysis, Decay):
-            yield f"     {decay_cost_words(scene, analysis)}"
     yield from _sizes(scene)
     infinite = infinite_draught_comparison(scene)
     if infinite is not None:
@@ -51,51 +56,42 @@ def open_requests(scene: TankParts) -> Iterator[str]:
 
 
 def _sizes(scene: TankParts) -> Iterator[str]:
-    """Yield the size of the first mesh of the analyses over the frequency, which is made."""
+    """Yield the size of the first mesh of the analyses over the frequency, which is made, and the cost of all."""
+    tolerance, water = scene.accuracy.tolerance, physical_tank(scene)
+    water = water.of_order(min(water.orders))
     bands = [band for one in scene.analyses if (band := getattr(one.request, "band", None)) is not None]
     bands += [
         (_LOWEST_TONE * one.below, one.below) for one in scene.analyses if isinstance(one, Resonance) and one.below
     ]
-    over_frequency = bool(bands)
-    if not bands and not scene.floats:
-        return
-    # These need dolfinx, which takes a second to import.
-    from hydroelastic.fem.open_water.cost import first_size
-    from hydroelastic.fem.open_water.field_model import Band
-    from hydroelastic.meshes.tagged_mesh import MeshError
-
-    water = physical_tank(scene)
-    water = water.of_order(min(water.orders))
     # Whether there is a mesh does not depend on the frequency.
-    bands = bands or [2 * (sqrt(water.gravity / (scene.stretch[1] - scene.stretch[0])),)]
-    band = Band(lowest=min(low for low, _ in bands), highest=max(high for _, high in bands))
-    try:
-        cells, degree, unknowns = first_size(water, scene.accuracy.tolerance, band)
-    except MeshError as error:
-        raise cannot_be_meshed(error) from error
-    if not over_frequency:
-        return
-    orders = ""
+    asked = bands or [2 * (sqrt(water.gravity / (scene.stretch[1] - scene.stretch[0])),)]
+    band = Band(lowest=min(low for low, _ in asked), highest=max(high for _, high in asked))
+    orders = 1
     if scene.is_revolved and any(isinstance(one, Response | Spectrum) for one in scene.analyses):
         radius = max(right for _, right in (body.waterplane for body in water.bodies))
-        orders = f", in each of about {ceil(band.wavenumbers(water)[1] * radius) + 2} azimuthal orders"
-    yield (
-        f"First mesh, for frequencies from {band.lowest:.4g} to {band.highest:.4g} rad/s: degree {degree}, "
-        f"{cells} triangles, {unknowns} unknowns of ψ{orders}."
-    )
-
-
-def decay_cost_words(scene: TankParts, analysis: Decay) -> str:
-    """Return the estimated cost of a decay analysis; its first mesh is made."""
-    # This needs dolfinx, which takes a second to import.
-    from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
-
-    cost = decay_cost(physical_tank(scene), scene.accuracy.tolerance, analysis.request)
-    unknowns = f"{round(cost.unknowns, -3):,}".replace(",", " ")
-    return (
-        f"about {unknowns} unknowns, {cost.factorizations} factorizations, {cost.seconds:.2g} s of "
-        f"processor time and {cost.memory / 2**30:.2g} GiB of memory, within a factor of {WITHIN:g}"
-    )
+        orders = ceil(band.wavenumbers(water)[1] * radius) + 2
+    timed = [one.request for one in scene.analyses if isinstance(one, Decay | Motion | ImpulseResponse)]
+    latest = max((time for request in timed for time in request.times), default=0.0)
+    try:
+        cells, degree, unknowns = first_size(water, tolerance, band)
+        if bands:
+            each = f", in each of about {orders} azimuthal orders" if orders > 1 else ""
+            yield (
+                f"First mesh, for frequencies from {band.lowest:.4g} to {band.highest:.4g} rad/s: degree {degree}, "
+                f"{cells} triangles, {unknowns} unknowns of ψ{each}."
+            )
+        if latest:
+            at_rest = [body.hydrostatics for body in water.floats.values()]
+            fastest = max((sqrt(0.5 * one.heave_stiffness / one.mass) for one in at_rest), default=band.highest)
+            lowest = min(band.lowest, lowest_meshed_frequency(water, latest))
+            band = Band(lowest=lowest, highest=highest_meshed_frequency(fastest, tolerance))
+            _, degree, unknowns = first_size(water, tolerance, band)
+    except MeshError as error:
+        raise cannot_be_meshed(error, scene) from error
+    solutions = len(scene.analyses) * (_LEAST_SOLUTIONS - _SOLUTIONS_OF_A_DIGIT * log10(tolerance))
+    # Most orders need fewer solutions than the first ones.
+    solutions *= 0.3 + 0.7 / orders
+    yield str(cost(unknowns, degree, solutions, "sea", parts=orders))
 
 
 def _request(scene: TankParts, analysis: Analysis) -> str:

@@ -14,8 +14,8 @@ from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.open_water.plan_waves import plan_waves
 from hydroelastic.fem.open_water.solve import solve_open_water
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.time_domain.motion import UnsolvedMotionError
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
@@ -58,7 +58,7 @@ class SampledWater:
 
 def _sample(solution: OpenSolution, _summary: Reading) -> SampledWater:
     sampled, missing = [], []
-    problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
+    problem = open_water_problem(solution.scene, MPI.COMM_WORLD)
     plans = _plans(problem, solution) if solution.scene.is_revolved else ()
     for name, fields in () if solution.scene.is_revolved else open_fields(problem, solution):
         try:
@@ -155,9 +155,9 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
     """Solve all analyses of a scene with open ends (collective)."""
     requests = tuple(analysis.request for analysis in scene.analyses)
     try:
-        solved = solve_open_water(open_water_problem(scene, comm, Stopwatch()), requests, report)
+        solved = solve_open_water(open_water_problem(scene, comm), requests, report)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     except UnsolvedMotionError as error:

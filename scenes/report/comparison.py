@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.provenance import SECONDS
 from hydroelastic.output.sections import Section
 from hydroelastic.output.tank.quantities import EXACT
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
@@ -64,4 +65,5 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     from hydroelastic.scenes.thread.compare import thread_differences
     from hydroelastic.scenes.thread.estimates import thread_estimates
 
-    yield from comparison_sections(thread_differences(outcome.solution, tuple(thread_estimates(scene))))
+    seconds = outcome.summary[SECONDS.key]
+    yield from comparison_sections(thread_differences(outcome.solution, tuple(thread_estimates(scene)), seconds))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hydroelastic.output.provenance import MEMORY_PEAK, TIMING, VERSIONS, Summary, read_summary
+from hydroelastic.output.provenance import MEMORY_PEAK, SECONDS, VERSIONS, Summary, read_summary
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.report.families import size_of
 
@@ -12,12 +12,10 @@ from hydroelastic.scenes.report.families import size_of
 def cost_sections(summary: Summary) -> Iterator[Section]:
     """Yield tables of the cost of a result; `summary` is the content of ``summary.json``."""
     told = read_summary(summary)
-    rows = [(stage, f"{seconds:.3f}") for stage, seconds in told[TIMING].items()]
-    total = "sum", f"{sum(told[TIMING].values()):.3f}"
-    yield Section(title="Seconds by stage", headings=("stage", "seconds"), rows=[*rows, total])
     size = [(name.replace("_", " "), _size(value)) for name, value in size_of(summary).values.items()]
     memory = ("peak memory of all processes, MiB", f"{told[MEMORY_PEAK] / 2**20:.0f}")
-    yield Section(title="Size", headings=("quantity", "value"), rows=[*size, memory])
+    seconds = ("seconds", f"{told[SECONDS]:.3f}")
+    yield Section(title="Size and time", headings=("quantity", "value"), rows=[*size, memory, seconds])
     yield Section(title="Versions", headings=("package", "version"), rows=list(told[VERSIONS].items()))
 
 

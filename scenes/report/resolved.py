@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from hydroelastic.output.digits import counted
 from hydroelastic.output.level_tank import quantities as level_tank
 from hydroelastic.output.open_water import quantities as water
-from hydroelastic.output.provenance import REASONS, Summary
+from hydroelastic.output.provenance import Summary
 from hydroelastic.output.quantities import Quantity
 from hydroelastic.output.reading import Reading
 from hydroelastic.output.roll import quantities as roll
@@ -26,9 +26,7 @@ def resolved(summary: Summary) -> Section:
 
 def _tank(summary: Reading) -> Iterator[str]:
     size, solver = summary[tank.SIZE], summary[tank.SOLVER]
-    half = " in half the tank, for the scene is its own mirror image" if size[tank.HALVES] else ""
-    yield _attempts(summary, solver[tank.ATTEMPTS])
-    yield f"{size[tank.CELLS]} cells of degree {size[tank.DEGREE]}{half}; {size[tank.DOFS]} unknowns of ψ."
+    yield f"{size[tank.CELLS]} cells of degree {size[tank.DEGREE]}; {size[tank.DOFS]} unknowns of ψ."
     yield from _confirmed(solver, tank.COUNT_CONFIRMED, tank.LARGEST_RESIDUAL)
 
 
@@ -36,19 +34,12 @@ def _level_tank(summary: Reading) -> Iterator[str]:
     size, solver = summary[level_tank.SIZE], summary[level_tank.SOLVER]
     model = solver[level_tank.MODEL]
     yield f"{model[:1].upper()}{model[1:]}."
-    yield _attempts(summary, solver[level_tank.ATTEMPTS])
     poles = f", {size[level_tank.POLES]} poles of the depth" if size[level_tank.POLES] else ""
     yield (
         f"{counted(size[level_tank.PROBLEMS], 'problem')}: degree {size[level_tank.DEGREE]}, "
         f"{size[level_tank.LAYERS]} layers at each edge{poles}; {size[level_tank.DOFS]} unknowns."
     )
     yield from _confirmed(solver, level_tank.COUNT_CONFIRMED, level_tank.LARGEST_RESIDUAL)
-
-
-def _attempts(summary: Reading, attempts: int) -> str:
-    if attempts == 1:
-        return "One attempt." if summary[REASONS] else "One attempt: its estimated errors are within the tolerance."
-    return f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
 
 
 def _confirmed(solver: Reading, count_confirmed: Quantity, residual: Quantity) -> Iterator[str]:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import pi
 
+from hydroelastic.fem.cost import cost
 from hydroelastic.output.digits import number
 from hydroelastic.output.roll.quantities import regime
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.roll.physics import rolling_ship
 from hydroelastic.scenes.roll.section_file import section_scene
+
+# Of ψ around a ship's section, and frequencies.
+_UNKNOWNS, _SOLUTIONS = 6_000, 30
 
 
 def check_roll(scene: RollScene) -> Iterator[Section]:
@@ -71,6 +75,8 @@ def _waves(scene: RollScene) -> Iterator[str]:
 
 
 def _method(scene: RollScene) -> Iterator[str]:
+    section = 0 if scene.natural_frequency is not None else _UNKNOWNS
+    yield str(cost(section, 6, _SOLUTIONS, "sea" if section else "roll"))
     if scene.roll.quadratic_damping:
         yield "Integrated in time (DOP853), restarted at each wave and sign change of φ', until two tolerances agree."
     else:

@@ -42,7 +42,6 @@ class RollResult:
     scene: RollScene
     solution: RollSolution  # the motion; the error of its ship is that of the section
     section: SectionRoll | None  # roll of the section by its field solution; ``None`` without one
-    seconds: dict[str, float]  # time by stage
 
     @property
     def levels(self) -> tuple[float, ...]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import ValidationError
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.modal.roll.quadratic import RollIntegrationError
 from hydroelastic.modal.roll.solution import roll_solution
 from hydroelastic.output.csv_files import write_csv
@@ -39,8 +39,7 @@ def _write(result: RollResult, folder: Path) -> None:
 
 def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _message: None) -> RollResult:
     """Solve for the motion of the ship (collective if there is a section)."""
-    watch = Stopwatch()
-    section = solved_section(scene, comm, watch, report) if scene.roll.section is not None else None
+    section = solved_section(scene, comm, report) if scene.roll.section is not None else None
     ship = rolling_ship(scene, section)
     if section is not None:
         _check_with(scene, ship.natural_frequency)
@@ -57,7 +56,7 @@ def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _messag
         )
     except RollIntegrationError as error:
         raise UnsolvedError(f"the motion with quadratic damping was not found: {error}") from error
-    return RollResult(scene=scene, solution=solution, section=section, seconds={**watch.seconds, **solution.seconds})
+    return RollResult(scene=scene, solution=solution, section=section)
 
 
 def _check_with(scene: RollScene, natural_frequency: float) -> None:

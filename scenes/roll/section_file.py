@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.roll import RollScene
@@ -54,27 +54,26 @@ def _unusable(scene: RollScene, wrong: str, allowed: str = "") -> SceneError:
     return SceneError(problem, file=scene.source)
 
 
-def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
+def solved_section(scene: RollScene, comm: MPI.Comm, report: Report) -> SectionRoll:
     """Read and solve the section (collective)."""
     section = section_scene(scene)
-    with watch.stage("import"):
-        from hydroelastic.fem.section_roll import SectionRollError, section_roll
-        from hydroelastic.fem.solver_error import EigenSolverError
-        from hydroelastic.meshes.tagged_mesh import MeshError
-        from hydroelastic.scenes.models.physical import physical_tank
-        from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
+    from hydroelastic.fem.section_roll import SectionRollError, section_roll
+    from hydroelastic.fem.solver_error import EigenSolverError
+    from hydroelastic.meshes.tagged_mesh import MeshError
+    from hydroelastic.scenes.models.physical import physical_tank
+    from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
+
     report("section")
     try:
-        with watch.stage("section"):
-            return section_roll(
-                physical_tank(section),
-                tolerance=section.accuracy.tolerance,
-                modes=section.accuracy.modes,
-                comm=comm,
-                title=section.title,
-                mesh=user_mesh(section, comm),
-                report=report,
-            )
+        return section_roll(
+            physical_tank(section),
+            tolerance=section.accuracy.tolerance,
+            modes=section.accuracy.modes,
+            comm=comm,
+            title=section.title,
+            mesh=user_mesh(section, comm),
+            report=report,
+        )
     except MeshError as error:
         raise mesh_refused(section, error) from error
     except EigenSolverError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.cost import Cost, cost
 from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.open_water.bodies import bodies_at_rest_section
@@ -17,7 +18,7 @@ from hydroelastic.scenes.models.round_tank import OrderedTankScene
 def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
     """Yield what is asked, the tank, and the floats at rest."""
     asked = scene.accuracy
-    _require_mesh(scene)
+    expected = _cost(scene)
     outline = scene.bed
     if outline is None:
         bed = "level bed"
@@ -44,6 +45,7 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         lines=(
             f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",
             f"{what}{moved if scene.floats else ''}.",
+            str(expected),
         ),
     )
     yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
@@ -51,15 +53,19 @@ def check_round_tank(scene: OrderedTankScene) -> Iterator[Section]:
         yield bodies_at_rest_section(physical_tank(scene))
 
 
-def _require_mesh(scene: OrderedTankScene) -> None:
-    from hydroelastic.fem.tank.mesh import make_mesh  # it brings gmsh
+def _cost(scene: OrderedTankScene) -> Cost:
+    """By the mesh of order 0, in about as many orders as the plan of the highest mode has half waves, and two more."""
+    from hydroelastic.fem.tank.mesh import make_mesh, unknown_count  # it brings gmsh
 
     tank, asked = physical_tank(scene).of_order(0).scaled(), scene.accuracy
     tones, motions = expected_tones(tank), ends_of_motions(tank)
+    resolution = initial_resolution(tank, asked.tolerance, modes=asked.modes, tones=tones, motions=motions)
     try:
-        make_mesh(tank, initial_resolution(tank, asked.tolerance, modes=asked.modes, tones=tones, motions=motions))
+        mesh = make_mesh(tank, resolution)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
+    unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=len(tank.layers))
+    return cost(unknowns, resolution.degree, asked.modes, "section", parts=2.0 * asked.modes**0.5 + 2.0)
 
 
 def _unknowns(scene: OrderedTankScene) -> Iterator[Row]:

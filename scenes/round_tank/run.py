@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.level_tank.sample import SampledTank, sample_modes
 from hydroelastic.output.level_tank.tables import level_tank_cost, level_tank_sections

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.progress import Report
 from hydroelastic.modal.liquid.sloping_walls import lowest_between_slopes
 from hydroelastic.modal.plate.round_estimates import round_plate_estimates
 from hydroelastic.scenes.errors import UnsolvedError, cannot_be_meshed
@@ -19,14 +19,13 @@ def solve_round_scene(scene: OrderedTankScene, comm: MPI.Comm, report: Report) -
     from hydroelastic.fem.tank.round_solution import round_solution
     from hydroelastic.meshes.tagged_mesh import MeshError
 
-    asked, physical, watch = scene.accuracy, physical_tank(scene), Stopwatch()
+    asked, physical = scene.accuracy, physical_tank(scene)
     try:
         solution = round_solution(physical, tolerance=asked.tolerance, modes=asked.modes, comm=comm, report=report)
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    with watch.stage("estimates"):
-        exact = lowest_between_slopes(physical)
-        estimates = tuple(round_plate_estimates(physical, solution.physical))
-    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)
+    exact = lowest_between_slopes(physical)
+    estimates = tuple(round_plate_estimates(physical, solution.physical))
+    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates)

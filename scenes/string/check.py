@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import ceil
 
+from hydroelastic.fem.cost import cost
 from hydroelastic.output.digits import number
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.string import StringScene
 
+# Of a field solution, and its steps in the travel time of a wave; measured.
+_UNKNOWNS, _STEPS = 300, 100
 _MOTIONS = {
     "ramp": "f = Vt",
     "sine": "f = Δ sin ωt",
@@ -64,6 +68,9 @@ def _request(scene: StringScene) -> Iterator[str]:
 
 
 def _method(scene: StringScene) -> Iterator[str]:
+    travels = scene.times[-1] / scene.string.physical.travel_time
+    steps = 1 if scene.method == "series" else ceil(_STEPS * travels)
+    yield str(cost(_UNKNOWNS + len(scene.positions), 1, steps + len(scene.times), "string"))
     if scene.method == "series":
         yield "Series of Bessel functions and damped oscillations; no mesh."
         return

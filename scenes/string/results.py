@@ -29,11 +29,6 @@ class StringResult:
         return end_motion(self.scene)
 
     @property
-    def seconds(self) -> dict[str, float]:
-        """Time by stage."""
-        return self.solution.seconds
-
-    @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the tolerance is not reached; empty if it is."""
         solution = self.solution

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.modal.string.solution import StringSolution, series_solution
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.string import StringScene

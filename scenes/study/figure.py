@@ -31,7 +31,7 @@ def draw_study(study: Study, sheets: Sheets) -> None:
         for (family, degree), group in groupby(study.rows, key=_series_of):
             rows = list(group)
             style = _style(family, degree, rows)
-            left.loglog([row.total_seconds for row in rows], [row.error for row in rows], **style)
+            left.loglog([row.seconds for row in rows], [row.error for row in rows], **style)
             right.loglog([row.unknowns for row in rows], [row.error for row in rows], **style)
         _draw_floor((left, right), study)
         _draw_gain(right, study)

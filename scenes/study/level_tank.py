@@ -13,8 +13,8 @@ from rich import box
 from rich.table import Table
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.study.level_tank import LevelReference, LevelRow, level_reference, level_rows
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.folder import SUMMARY, result_folder
@@ -88,7 +88,7 @@ def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report =
     except EigenSolverError as error:
         raise UnsolvedError(f"the tank could not be solved: {error}") from error
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     return LevelStudy(scene=scene, tolerances=plan.tolerances, reference=reference, rows=tuple(rows))
 
 
@@ -104,7 +104,7 @@ def level_study_table(study: LevelStudy) -> str:
         "Seconds without elastic tones and compiling; MB: highest resident memory, above what was held before.",
     ):
         console.print(line, markup=False)
-    headings = ("asked", "degree", "layers", "poles", "problems", "tries", "unknowns", "error", "estimate", "ratio")
+    headings = ("asked", "degree", "layers", "poles", "problems", "unknowns", "error", "estimate", "ratio")
     for model, group in groupby(study.rows, key=lambda row: row.model):
         rows = list(group)
         console.print(f"\n{MODEL_WORDS[model][:1].upper()}{MODEL_WORDS[model][1:]}", markup=False)
@@ -115,11 +115,11 @@ def level_study_table(study: LevelStudy) -> str:
             above = row.error > row.floor
             table.add_row(
                 f"{row.tolerance:.0e}",
-                *map(str, (row.degree, row.layers, row.poles, row.problems, row.attempts, row.unknowns)),
+                *map(str, (row.degree, row.layers, row.poles, row.problems, row.unknowns)),
                 f"{row.error:.1e}" if above else f"<{row.floor:.0e}",
                 f"{row.estimate:.1e}",
                 f"{row.estimate / row.error:.1f}" if above else "",
-                f"{row.total_seconds:.3f}",
+                f"{row.seconds:.3f}",
                 "" if row.memory is None else f"{row.memory / 1e6:.3g}",
             )
         console.print(table)
@@ -157,12 +157,10 @@ def level_study_csv(study: LevelStudy) -> str:
     """All rows at full precision."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    keys = ("model", "tolerance", "degree", "layers", "poles", "problems", "attempts", "unknowns", "error", "floor")
-    stages = tuple(dict.fromkeys(stage for row in study.rows for stage in row.seconds))
-    writer.writerow([*keys, "estimate", "seconds", *(f"{stage}_seconds" for stage in stages), "memory"])
+    keys = ("model", "tolerance", "degree", "layers", "poles", "problems", "unknowns", "error", "floor")
+    writer.writerow([*keys, "estimate", "seconds", "memory"])
     for row in study.rows:
-        times = (row.seconds.get(stage, 0.0) for stage in stages)
-        writer.writerow([*(getattr(row, key) for key in keys), row.estimate, row.total_seconds, *times, row.memory])
+        writer.writerow([*(getattr(row, key) for key in keys), row.estimate, row.seconds, row.memory])
     return text.getvalue()
 
 
@@ -173,7 +171,7 @@ def _draw(study: LevelStudy, sheets: Sheets) -> None:
             rows = list(group)
             colour, marker = _STYLES[model]
             for axes, values in (
-                (left, [row.total_seconds for row in rows]),
+                (left, [row.seconds for row in rows]),
                 (right, [row.unknowns for row in rows]),
             ):
                 axes.loglog(values, [row.error for row in rows], color=colour, marker=marker, label=model)

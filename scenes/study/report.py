@@ -28,10 +28,6 @@ from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.study.figure import draw_study
 from hydroelastic.scenes.study.run import Study
 
-STAGES = ("plan", "mesh", "assemble", "solve", "count", "errors", "pressure release")
-"""Stages of a solution in their order; other timed stages follow them."""
-
-_SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}
 # Where all modes have one order their symmetry is not stated.
 _SYMMETRIES: dict[Parity | None, str] = {None: "", "symmetric": " sym.", "antisymmetric": " antisym."}
 _WIDTH = 120
@@ -50,7 +46,6 @@ _COLUMNS: dict[str, Cell] = {
     "degree": lambda row: str(row.degree),
     "β": lambda row: "" if row.grading is None else f"{row.grading:.3g}",
     "element/L": lambda row: f"{row.element_size:.4g}",
-    "tries": lambda row: str(row.attempts),
     "unknowns": lambda row: str(row.unknowns),
     "error": lambda row: _above(row, row.error),
     "lowest": lambda row: _above(row, row.lowest_error),
@@ -62,7 +57,7 @@ _SHOWN: dict[Family, tuple[str, ...]] = {
     "uniform": ("degree", "element/L", "unknowns", "error", "lowest"),
     "algebraic": ("degree", "β", "element/L", "unknowns", "error", "lowest"),
     "geometric": ("degree", "unknowns", "error", "lowest", "estimate", "ratio"),
-    "tolerance": ("asked", "degree", "tries", "unknowns", "error", "lowest", "estimate", "ratio"),
+    "tolerance": ("asked", "degree", "unknowns", "error", "lowest", "estimate", "ratio"),
 }
 
 
@@ -76,19 +71,12 @@ def study_table(study: Study) -> str:
 def _print_errors(console: Console, study: Study, reference: Reference) -> None:
     modes = study.scene.accuracy.modes
     certain = f", estimated error {reference.uncertainty:.1e}" if reference.uncertainty else ", exact"
-    halves = (
-        "The tank is its own mirror image: every row solves it as two halves, and counts the unknowns of both."
-        if study.halves
-        else "The tank is not its own mirror image: every row solves all of it."
-    )
     for line in (
         f"{study.scene.title or 'Untitled scene'}: error against cost",
         f"Reference: {reference.name}{certain}.",
-        halves,
         *_symmetry_lines(study.tank),
         f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
-        "Seconds by stage, without compiling (ψ=0: pressure-release tone; m_a: added mass); MB: highest resident",
-        "memory, above what was held before.",
+        "Seconds without compiling; MB: highest resident memory, above what was held before.",
         "",
     ):
         console.print(line, markup=False)
@@ -122,16 +110,13 @@ def _why_none(tank: Tank, family: Family) -> str:
 
 
 def _rows_table(family: Family, rows: Sequence[StudyRow]) -> Table:
-    # Planning takes a millisecond and is in the CSV file only.
-    stages = [stage for stage in _stages(rows) if stage != "plan" and any(stage in row.seconds for row in rows)]
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=0)
-    for heading in (*_SHOWN[family], *stages, "total", "MB"):
-        table.add_column(_SHORT.get(heading, heading), justify="right", no_wrap=True)
+    for heading in (*_SHOWN[family], "seconds", "MB"):
+        table.add_column(heading, justify="right", no_wrap=True)
     for row in rows:
         table.add_row(
             *(_COLUMNS[column](row) for column in _SHOWN[family]),
-            *(f"{row.seconds.get(stage, 0.0):.3f}" for stage in stages),
-            f"{row.total_seconds:.3f}",
+            f"{row.seconds:.3f}",
             "" if row.memory is None else f"{row.memory / 1e6:.3g}",
         )
     return table
@@ -188,30 +173,18 @@ def _tolerance_line(study: Study) -> str:
     return f"Tolerances: {kept}; {between}."
 
 
-def _stages(rows: Sequence[StudyRow]) -> tuple[str, ...]:
-    """The known stages, then others in the order in which they appear."""
-    return tuple(dict.fromkeys([*STAGES, *(stage for row in rows for stage in row.seconds)]))
-
-
-def csv_columns(study: Study) -> tuple[str, ...]:
-    """Headings of the CSV file: seconds of every stage among them."""
-    stages = (f"{stage.replace(' ', '_')}_seconds" for stage in _stages(study.rows))
-    return (
-        *("family", "degree", "element_size", "grading", "tolerance", "attempts", "halves", "unknowns"),
-        *("error", "lowest_error", "floor", "estimate", "seconds", *stages, "memory"),
-    )
+_CSV = (
+    *("family", "degree", "element_size", "grading", "tolerance", "unknowns"),
+    *("error", "lowest_error", "floor", "estimate", "seconds", "memory"),
+)
 
 
 def study_csv(study: Study) -> str:
     """All rows at full precision; columns that a family does not have are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(csv_columns(study))
-    for row in study.rows:
-        what = (row.family, row.degree, row.element_size, row.grading, row.tolerance, row.attempts, int(study.halves))
-        found = (row.unknowns, row.error, row.lowest_error, row.floor, row.estimate)
-        seconds = (row.seconds.get(stage, 0.0) for stage in _stages(study.rows))
-        writer.writerow([*what, *found, row.total_seconds, *seconds, row.memory])
+    writer.writerow(_CSV)
+    writer.writerows([getattr(row, column) for column in _CSV] for row in study.rows)
     return text.getvalue()
 
 
@@ -230,7 +203,6 @@ def write_study(
             "reasons": study.reasons,
             "plan": asdict(study.plan),
             "reference": _reference_row(study.reference),
-            "halves": study.halves,
             "rates": [asdict(rate) | {"agrees": rate.agrees} for rate in study.rates],
             "gain": None if study.gain is None else asdict(study.gain) | {"agrees": study.gain.agrees},
             "rows": [asdict(row) for row in study.rows],

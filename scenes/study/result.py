@@ -11,7 +11,7 @@ from typing import Any
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.scene_model import plain
@@ -25,7 +25,7 @@ class Study:
     """The errors and costs of a scene in many solutions. ``print`` shows the tables of the command line.
 
     Attributes:
-        measured: all that was found: ``rows`` with family or model, degree, errors, estimate, seconds by stage and
+        measured: all that was found: ``rows`` with family or model, degree, errors, estimate, seconds and
             memory; per metre of width ``rates`` and ``gain``, the fitted orders beside those of theory.
         text: the tables.
         csv: the rows, at full precision.

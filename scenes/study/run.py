@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.study.rates import Gain, Rate, fitted_gain, fitted_rates
 from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow

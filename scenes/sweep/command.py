@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from hydroelastic.meshes.interrupts import interrupted_with
-from hydroelastic.output.manifest import read_manifest
+from hydroelastic.output.folder import written_by_run
 from hydroelastic.output.pictures.options import CurveFormat
 from hydroelastic.scenes.command_options import (
     dpi_option,
@@ -85,7 +85,7 @@ def sweep(
     grid = grid_from_texts(vary)
     source = scene_source(scene)
     folder = folder_of_results(scene, out, suffix="_sweep")
-    replaces = read_manifest(folder) is not None
+    replaces = written_by_run(folder) is not None
     title = source.document.get("title") or "Untitled scene"
     with (
         interrupted_with(f"the points solved so far are kept in {folder}/; the same command goes on from there."),

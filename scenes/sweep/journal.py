@@ -11,8 +11,7 @@ from pathlib import Path
 
 from mpi4py import MPI
 
-from hydroelastic.output.folder import check_output
-from hydroelastic.output.manifest import read_manifest, write_manifest
+from hydroelastic.output.folder import check_output, list_files, written_by_run
 from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
 from hydroelastic.scenes.sweep.point import SolvedPoint
 
@@ -71,9 +70,9 @@ def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Jo
         check_output(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if read_manifest(folder) is None:
+        if written_by_run(folder) is None:
             # It marks the folder as one of results.
-            write_manifest(folder, scene_file=scene_file, place=Path(os.path.realpath(folder)))
+            list_files(folder, scene_file=scene_file, place=Path(os.path.realpath(folder)))
         descriptor = os.open(folder / JOURNAL, os.O_RDWR | os.O_APPEND | os.O_CREAT, 0o666)
     except OSError as error:
         wrong = f"it cannot be written ({error.strerror})"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.output.quantities import Group
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of

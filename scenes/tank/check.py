@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.cost import cost
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     infinite_frequency_resolution,
@@ -28,7 +29,7 @@ def check_tank(scene: TankParts) -> Iterator[Section]:
     try:
         sizes = tuple(_sizes(scene))
     except MeshError as error:
-        raise cannot_be_meshed(error) from error
+        raise cannot_be_meshed(error, scene) from error
     return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=sizes))
 
 
@@ -55,7 +56,8 @@ def _sizes(scene: TankParts) -> Iterator[str]:
     motions = ends_of_motions(tank)
     resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
-    yield f"First attempt: {_size(tank, resolution, user_mesh, half=half)}."
+    words, unknowns = _size(tank, resolution, user_mesh, half=half)
+    yield f"First attempt: {words}."
     if user_mesh is not None and BAFFLE in user_mesh.facet_names:
         yield f"  The mesh has {user_mesh.facet_measure(BAFFLE):.5g} m of baffles, with ψ_n = 0 on both sides."
     if resolution.modes > scene.accuracy.modes:
@@ -81,11 +83,13 @@ def _sizes(scene: TankParts) -> Iterator[str]:
     ]
     if limits:
         limit = infinite_frequency_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
-        size = _size(tank, limit, user_mesh, half=half, infinite_frequency=scene.mesh is None)
+        size, more = _size(tank, limit, user_mesh, half=half, infinite_frequency=scene.mesh is None)
+        unknowns += more
         two = "in the limit of infinite frequency, with ρψ continuous"
         where = "with ψ = 0 on the water" if len(tank.layers) == 1 else two
         yield f"In addition, {' and '.join(limits)} {where}: {size}."
         yield "  There are no waves to resolve, but a stronger singularity at the tips."
+    yield str(cost(unknowns, resolution.degree, scene.accuracy.modes, "section", parts=1 + half))
 
 
 def _user_mesh(scene: TankParts) -> TaggedMesh | None:
@@ -99,7 +103,7 @@ def _user_mesh(scene: TankParts) -> TaggedMesh | None:
 
 def _size(
     tank: Tank, resolution: Resolution, user_mesh: TaggedMesh | None, *, half: bool, infinite_frequency: bool = False
-) -> str:
+) -> tuple[str, int]:
     from hydroelastic.fem.tank.mesh import make_mesh, unknown_count
 
     mesh = (
@@ -118,7 +122,7 @@ def _size(
     ]
     if tank.elastic:
         parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.elastic)} dry modes")
-    return ", ".join(parts)
+    return ", ".join(parts), unknowns
 
 
 def _request(scene: TankParts) -> str:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
@@ -54,19 +54,17 @@ class SampledTank:
 def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:
     """Solve a closed tank and estimate it (collective); `liquids` makes its mesh and matrices."""
     closed_tank(scene, "the estimates of the older theories are those of closed tanks")
-    watch = Stopwatch()
-    with watch.stage("estimates"):
-        report("estimates")
-        physical = physical_tank(scene)
-        estimates = tone_estimates(physical)
-        of_floats = None
-        if scene.floats:
-            # Floats need more of SciPy, which takes a while to import.
-            from hydroelastic.modal.floats.estimates import float_estimates
+    report("estimates")
+    physical = physical_tank(scene)
+    estimates = tone_estimates(physical)
+    of_floats = None
+    if scene.floats:
+        # Floats need more of SciPy, which takes a while to import.
+        from hydroelastic.modal.floats.estimates import float_estimates
 
-            of_floats = float_estimates(physical)
+        of_floats = float_estimates(physical)
     solved = solve_tank_alone(scene, comm, report, liquids)
-    return replace(solved, beam=estimates, floats=of_floats, estimating=watch.seconds)
+    return replace(solved, beam=estimates, floats=of_floats)
 
 
 def solve_tank_alone(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.fem.pictures.mode import ModePicture
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.reading import Reading

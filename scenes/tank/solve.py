@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
@@ -28,24 +28,17 @@ class EstimatedTank:
         tank: its field solution.
         beam: the estimates of the beam, by name.
         floats: those of the floats, by body; ``None`` without floats.
-        estimating: the time that the estimates took, by stage.
     """
 
     scene: TankScene
     tank: TankSolution
     beam: dict[str, Estimate] = field(default_factory=dict)
     floats: dict[int, dict[str, FloatEstimate]] | None = None
-    estimating: dict[str, float] = field(default_factory=dict)
 
     @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the tolerance is not kept; empty if it is."""
         return self.tank.reasons
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """Time by stage, s."""
-        return self.tank.seconds | self.estimating
 
 
 def solve_scene(

@@ -48,7 +48,7 @@ def user_mesh(scene: TankParts, comm: MPI.Comm) -> TaggedMesh | None:
 def mesh_refused(scene: TankParts, error: Exception) -> SceneError:
     """Return the error for a mesh that cannot be used, the user's or the built-in one."""
     if scene.mesh is None:
-        return cannot_be_meshed(error)
+        return cannot_be_meshed(error, scene)
     problem = Problem(
         key='[mesh], key "file"',
         value=f'"{scene.mesh.file}"',

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any, assert_never
 
 import numpy as np
-from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.thread.analyses import ThreadAnalyses
 from hydroelastic.modal.thread.estimate import (
     Found,
@@ -21,7 +20,7 @@ from hydroelastic.modal.thread.estimate import (
     ValueEstimate,
 )
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.provenance import Summary
+from hydroelastic.output.provenance import SECONDS, Summary
 from hydroelastic.output.thread.comparison import COMPARISON
 from hydroelastic.output.thread.comparison_tables import comparison_sections
 from hydroelastic.physics.arrays import FloatArray
@@ -29,7 +28,6 @@ from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.estimates import compared_places, thread_estimates
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.run import run_thread
-from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 # Factor of truncation errors, which are estimated by the leading term that is left out, or by the last one kept.
 _LEFT_OUT = 2.0
@@ -40,7 +38,7 @@ _ROUNDING = 1e-12
 _BEYOND = 1.02
 
 
-def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found]) -> Summary:
+def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found], seconds: float) -> Summary:
     """Return the difference of each estimate from the field solution, JSON-ready.
 
     A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
@@ -51,7 +49,7 @@ def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Foun
         "field": {
             "position_error": rest.position_error,
             "tension_error": rest.tension_error,
-            "seconds": sum(solution.seconds.values()),
+            "seconds": seconds,
         },
         "shapes": [_shape(solution, found) for found in estimates if isinstance(found, ShapeEstimate)],
         "values": [_values(solution, found) for found in estimates if isinstance(found, ValueEstimate)],
@@ -162,13 +160,10 @@ def _nearest(values: NDArray[Any], field: NDArray[Any], errors: FloatArray) -> C
 
 def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
     """Solve a scene and compare the solution with all estimates that apply; writes nothing (collective)."""
-    comm = MPI.COMM_WORLD
     at_rest = scene.model_copy(update={"analysis": tuple(asked for asked in scene.analysis if asked.kind != "motion")})
-    solution = solve_thread_scene(at_rest, comm, report)
+    outcome = run_thread.solved(at_rest, report=report)
     report("estimates")
     estimates = tuple(thread_estimates(at_rest))
-    summary = run_thread.summarized(at_rest, solution)
-    differences = thread_differences(solution, estimates)
-    sections, cost = tuple(comparison_sections(differences)), run_thread.cost(run_thread.read(summary))
-    summary |= {COMPARISON.key: differences}
-    return Outcome(solution=solution, summary=summary, sections=sections, cost=cost, notes=True)
+    differences = thread_differences(outcome.solution, estimates, outcome.summary[SECONDS.key])
+    summary = outcome.summary | {COMPARISON.key: differences}
+    return replace(outcome, summary=summary, sections=tuple(comparison_sections(differences)), notes=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.line_sequence import Frame, frame_numbers, write_line, write_sequence

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
-from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium, find_equilibrium
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
 from hydroelastic.fem.thread.mode_refinement import modes_to_tolerance, stability_in_growing_stream
@@ -31,15 +31,14 @@ _NOT_FOUND = {"modes": "the modes could not be found", "stability": "the stabili
 
 def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> ThreadSolutionOfScene:
     """Solve a scene for its equilibrium, and then for each of its analyses."""
-    watch, thread, frame, tolerance = Stopwatch(), thread_of(scene), frame_of(scene), scene.accuracy.tolerance
+    thread, frame, tolerance = thread_of(scene), frame_of(scene), scene.accuracy.tolerance
     report("equilibrium")
-    with watch.stage("equilibrium"):
-        found = equilibrium_of(comm, scene)
+    found = equilibrium_of(comm, scene)
     rest = found.solution
     modes, sweeps, motions = [], [], []
     for asked in scene.analysis:
         report(asked.kind)
-        with watch.stage(asked.kind), _failures_in_words(asked):
+        with _failures_in_words(asked):
             if isinstance(asked, analyses.ThreadModes):
                 damping = asked.velocity_damping
                 modes.append(
@@ -59,7 +58,6 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
         stability=tuple(sweeps),
         motions=tuple(motions),
         size=_size(found, motions),
-        seconds=watch.seconds,
     )
 
 

@@ -27,19 +27,21 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import xarray
+from contract import unpromised
 
 Record: TypeAlias = dict[str, Any]
 Array: TypeAlias = np.ndarray
 
-# By the last part of a key, the name of a column or of a variable. Not promised: the engine's own, or dropped.
+# By the last part of a key, the name of a column or of a variable. What earlier versions had, or what is of the folder.
 DROPPED = re.compile(
-    r"manifest|printed|constant_corrected|restarts|laplace_solutions|pairs_|attempts|halves|(beam|plate)_shapes|timing"
-    r"|^stage$|version|package|memory|thinness|seconds|sweep.journal|nc: summary$"
+    r"manifest|printed|constant_corrected|restarts|laplace_solutions|pairs_asked|attempts|halves|beam_shapes|timing"
+    r"|^stage$|thinness|_seconds$|sweep.journal|nc: summary$|^summary\.(files|scene_file)$"
 )
+# Beside what is declared without a promised value: columns of tables, rows of studies, differences of like numbers.
 PRESENT = re.compile(
-    r"^size|\bsize\b|^solver|\bsolver\b|residual|error|difference|iterations|factorizations|newton|failed_start|start$"
-    r"|steps$|nodes$|note$|reasons?$|warnings?$|region|counted|count_method|unknowns|cells|degree$|phase"
+    r"error|residual|difference|note$|reasons?$|warnings?$|unknowns|degree$|layers$|memory|seconds|phase|region"
 )
+UNPROMISED = unpromised()
 FREQUENCIES = re.compile(r"omega|^(mode_)?frequency|frequency_hz|period$|root$")
 # What follows from the scene by closed forms or plain quadrature.
 CLOSED = re.compile(
@@ -54,7 +56,7 @@ SHAPES = re.compile(
 )
 SIGNED_BY = ("mode", "shape", "growing_mode")
 # Dimensions along which the mesh, or the solver, chooses the places.
-OF_THE_MESH = re.compile(r"^(point|position|node|mode_s|step_end|spectrum_omega|impulse_omega|row)|_row$")
+OF_THE_MESH = re.compile(r"^(point$|node|mode_s|step_end|spectrum_omega|impulse_omega|row)|_row$")
 CHOSEN = re.compile(
     r"^summary\.impulse_response\[\d+\]\.(omega|added_mass|radiation_damping)$|^impulse_response_check"
     r"|nc: impulse_(added_mass|radiation_damping)$|^spectrum.csv: omega"
@@ -300,7 +302,9 @@ def numbers(
 
 def is_present(key: str) -> bool:
     """Whether of a quantity only its presence counts."""
-    return not key.startswith("summary.scene") and any(PRESENT.search(part) for part in re.split(r"[.: ]+", key)[1:])
+    if key.startswith("summary.scene"):
+        return False
+    return bool(UNPROMISED.fullmatch(key)) or any(PRESENT.search(part) for part in re.split(r"[.: ]+", key)[1:])
 
 
 def groups_of(omega: Array, error: Array) -> list[list[int]]:
@@ -667,7 +671,7 @@ def compare(before: Path, after: Path) -> int:
 def make_reference(folder: Path, reference: Path) -> None:
     """Write the records of a corpus into the folder of references, a file for each case."""
     for case in sorted(path.parent for path in folder.glob("*/case.json")):
-        # The matrices of summaries are those of the datasets, and the scene is given.
+        # The matrices of summaries and tables are those of the datasets, and the scene is given.
         kept = {key: value for key, value in read_record(case).items() if not _is_repeated(key, value)}
         text = json.dumps(kept, ensure_ascii=False, separators=(",", ":"))
         lines = re.sub(r',("(?:summary|dataset|export|fields|\w+\.csv))', r",\n\1", text)
@@ -677,7 +681,8 @@ def make_reference(folder: Path, reference: Path) -> None:
 
 def _is_repeated(key: str, value: Any) -> bool:
     matrix = isinstance(value, dict) and len(value.get("shape", ())) > 1
-    return key.startswith("summary.scene.") or (key.startswith("summary.") and matrix)
+    column = isinstance(value, dict) and key.startswith("radiation.csv: ")
+    return key.startswith("summary.scene.") or (key.startswith("summary.") and matrix) or column
 
 
 if __name__ == "__main__":

@@ -171,7 +171,7 @@ class BeamLoads:
         """Distance from the left end, and upward force and anticlockwise moment of each spring and damper in each
         wave."""
         units, attachments = self._model.basin.units, self._model.attachments
-        betas = np.array([one.drag for one in attachments]).reshape(-1, 3)
+        betas = np.array([one.scaled(units).drag for one in attachments]).reshape(-1, 3)
         linear = np.zeros((len(motions), *betas.shape))
         linear[:, betas > 0.0] = drag
         found = []

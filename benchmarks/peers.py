@@ -16,78 +16,48 @@ import sysconfig
 import tempfile
 from collections.abc import Callable
 from importlib.machinery import PathFinder
-from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.metadata import requires, version
 from pathlib import Path
 
-from hydroelastic.benchmarks.cases import Code
-
-PEER_MODULES: dict[Code, str] = {
-    "ngsolve": "ngsolve",
-    "ngsolve loop": "ngsolve",
-    "scikit-fem": "skfem",
-    "capytaine": "capytaine",
-    "moorpy": "moorpy",
-    "moordyn": "moordyn",
-    "ngsolve plan": "ngsolve",
-    "ngsolve volume": "ngsolve",
-    "capytaine buoy": "capytaine",
-    "open-flash": "openflash",
-}
-EXTRA = "bench"
-_KEPT = ("numpy", "scipy")
-_MOST_SECONDS = 1800
-# It asks for a NumPy older than the environment's, with which it works, and for a web server.
-_ALONE = ("open-flash",)
+MODULES = {"scikit-fem": "skfem", "open-flash": "openflash"}
+"""Names of modules that differ from those of their packages."""
+_KEPT = [f"{name}=={version(name)}" for name in ("numpy", "scipy")]
+_OPTIONS = ["--disable-pip-version-check", "--no-input", "--quiet", "--no-warn-script-location"]
 
 
 class PeerError(RuntimeError):
     """A peer is not there and cannot be installed; the message says why."""
 
 
-def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> Path | None:
-    """Where the packages of a peer are."""
-    # `importlib.util.find_spec` would find what this process has imported from elsewhere, too.
-    if PathFinder.find_spec(PEER_MODULES[code]) is not None:
-        return None
-    # The same package in another way has its name first.
-    requirement = _requirement(code.split()[0])
-    folder = cache_folder() / f"benchmark-peers-{_fingerprint(requirement)}"
+def peer_folder(package: str, *, install: bool, report: Callable[[str], None]) -> str:
+    """Return where the modules of a peer are; empty where the environment has them."""
+    module = MODULES.get(package, package)
+    if PathFinder.find_spec(module) is not None:
+        return ""
+    pattern = rf"({package}\b[^;]*);\s*extra\s*==\s*['\"]bench['\"]"
+    found = [match[1].strip() for line in requires("hydroelastic") or () if (match := re.match(pattern, line))]
+    if not found:
+        raise PeerError(f"the metadata of hydroelastic do not name {package}")
+    parts = [*found, *_KEPT, str(sys.implementation.cache_tag), sysconfig.get_platform()]
+    fingerprint = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:12]
+    folder = cache_folder() / f"benchmark-peers-{fingerprint}"
     if not folder.is_dir():
         if not install:
-            raise PeerError(f"{code} is not installed, and no installation was asked for")
-        report(f"installing {requirement} into {folder}")
-        _install(requirement, folder)
-    packages = _packages(folder)
-    if PathFinder.find_spec(PEER_MODULES[code], [str(packages)]) is None:
-        raise PeerError(f"{folder} has no {PEER_MODULES[code]} that can be read; remove it to have it installed again")
+            raise PeerError("not installed")
+        report(f"installing {found[0]} into {folder}")
+        _install(found[0], folder)
+    base = {"base": str(folder), "platbase": str(folder)}
+    packages = sysconfig.get_path("purelib", sysconfig.get_preferred_scheme("prefix"), base)
+    if PathFinder.find_spec(module, [packages]) is None:
+        raise PeerError(f"{folder} has no {module} that can be read; remove it to have it installed again")
     return packages
 
 
 def cache_folder() -> Path:
-    """The cache of this project: $HYDROELASTIC_CACHE, else hydroelastic in the user's cache."""
+    """Return the cache of this project: $HYDROELASTIC_CACHE, else hydroelastic in the user's cache."""
     named = os.environ.get("HYDROELASTIC_CACHE")
     above = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(named).absolute() if named else Path(above) / "hydroelastic"
-
-
-def _requirement(package: str) -> str:
-    """The requirement of a peer's package, as the metadata of this package have it."""
-    try:
-        declared = requires("hydroelastic") or []
-    except PackageNotFoundError:
-        declared = []
-    for line in declared:
-        requirement, _, marker = line.partition(";")
-        name = re.match(r"[A-Za-z0-9._-]+", requirement.strip())
-        if name and name[0].lower() == package and re.search(rf"extra\s*==\s*['\"]{EXTRA}['\"]", marker):
-            return requirement.strip()
-    raise PeerError(f"the metadata of hydroelastic do not name {package}; start with ./hydro, or install the package")
-
-
-def _fingerprint(requirement: str) -> str:
-    kept = [f"{name}=={version(name)}" for name in _KEPT]
-    parts = [requirement, *kept, str(sys.implementation.cache_tag), sysconfig.get_platform()]
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:12]
 
 
 def _install(requirement: str, folder: Path) -> None:
@@ -95,45 +65,24 @@ def _install(requirement: str, folder: Path) -> None:
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         building = Path(tempfile.mkdtemp(prefix=f"{folder.name}.", suffix=".partial", dir=folder.parent))
-        building.chmod(folder.parent.stat().st_mode)  # as open as the cache, which others may share
     except OSError as error:
         raise PeerError(f"the cache {folder.parent} cannot be written ({error.strerror or error})") from error
+    # OpenFLASH asks for a NumPy older than the environment's, with which it works, and for a web server.
+    alone = ["--no-deps"] * requirement.startswith("open-flash")
+    # pip would otherwise replace the environment's own where a peer asks for newer ones.
+    (building / "constraints.txt").write_text("\n".join(_KEPT) + "\n", encoding="utf-8")
+    # A prefix, for Netgen's wheel has libraries outside of its packages, which `--target` loses.
+    words = [*alone, "--prefix", str(building), "--constraint", str(building / "constraints.txt"), requirement]
     try:
-        # pip would otherwise replace the environment's own where a peer asks for newer ones.
-        constraints = building / "constraints.txt"
-        constraints.write_text("".join(f"{name}=={version(name)}\n" for name in _KEPT), encoding="utf-8")
-        # A prefix, for Netgen's wheel has libraries outside of its packages, which `--target` loses.
-        alone = ["--no-deps"] * requirement.startswith(_ALONE)
-        _pip("install", *alone, "--prefix", str(building), "--constraint", str(constraints), requirement)
-        try:
-            building.rename(folder)
-        except OSError:
-            if not folder.is_dir():  # else another process was faster
-                raise
-    except OSError as error:
-        raise PeerError(f"{folder} cannot be written ({error.strerror or error})") from error
+        command = [sys.executable, "-m", "pip", "install", *_OPTIONS, *words]
+        ended = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=1800)
+        if ended.returncode:
+            said = [line for line in ended.stderr.splitlines() if line.strip()] or ["without a message"]
+            raise PeerError(f"pip ended with code {ended.returncode}: {said[-1]}")
+        building.chmod(folder.parent.stat().st_mode)  # as open as the cache, which others may share
+        building.rename(folder)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        if not folder.is_dir():  # else another process was faster
+            raise PeerError(f"{folder}: {error}") from error
     finally:
         shutil.rmtree(building, ignore_errors=True)
-
-
-def _pip(*arguments: str) -> None:
-    options = ["--disable-pip-version-check", "--no-input", "--quiet", "--no-warn-script-location"]
-    environment = {
-        name: value for name, value in os.environ.items() if name not in ("PIP_TARGET", "PIP_PREFIX", "PIP_USER")
-    }
-    command = [sys.executable, "-m", "pip", arguments[0], *options, *arguments[1:]]
-    try:
-        ended = subprocess.run(
-            command, capture_output=True, text=True, errors="replace", env=environment, timeout=_MOST_SECONDS
-        )
-    except subprocess.TimeoutExpired as error:
-        raise PeerError(f"pip did not end within {_MOST_SECONDS} s") from error
-    if ended.returncode:
-        said = [line for line in ended.stderr.splitlines() if line.strip()]
-        errors = [line for line in said if line.startswith("ERROR")] or said
-        raise PeerError(f"pip ended with code {ended.returncode}: {' '.join(errors[-2:]) or 'without a message'}")
-
-
-def _packages(prefix: Path) -> Path:
-    scheme = sysconfig.get_preferred_scheme("prefix")
-    return Path(sysconfig.get_path("purelib", scheme, {"base": str(prefix), "platbase": str(prefix)}))

@@ -15,9 +15,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, Discriminator, Tag
 from pydantic.fields import FieldInfo
 
-from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import CanalScene, RoundTankScene
 from hydroelastic.scenes.models.scene_model import LARGEST, SMALLEST
 from hydroelastic.scenes.models.values import OR_SWEEP, Sweep
 from hydroelastic.scenes.read import SCENE_MODELS

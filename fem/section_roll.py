@@ -29,7 +29,7 @@ from hydroelastic.fem.progress import Report
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
-from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.physics.dofs import MOTIONS
 from hydroelastic.physics.tank import Tank
 
 # Of the tolerance asked: a step of the root finder that changes k by less is the last.

@@ -56,19 +56,12 @@ def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]
 
 @dataclass(frozen=True, kw_only=True)
 class _Joined:
-    """All nodes and cells before the mesh is cut open.
+    """All nodes and cells before the mesh is cut open."""
 
-    Attributes:
-        points: shape (nodes, 2).
-        cells: clockwise, shape (cells, 3).
-        regions: index of each cell's region.
-        chains: nodes of each curve from its start to its end.
-    """
-
-    points: NDArray[np.float64]
-    cells: NDArray[np.int64]
-    regions: NDArray[np.int64]
-    chains: list[NDArray[np.int64]]
+    points: NDArray[np.float64]  # shape (nodes, 2)
+    cells: NDArray[np.int64]  # clockwise, shape (cells, 3)
+    regions: NDArray[np.int64]  # index of each cell's region
+    chains: list[NDArray[np.int64]]  # nodes of each curve from its start to its end
 
 
 def _joined(layout: Layout, filling: Filling) -> _Joined:

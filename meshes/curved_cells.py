@@ -35,17 +35,11 @@ _MORE_DEGREES = 6
 
 @dataclass(frozen=True, kw_only=True)
 class CurvedEdges:
-    """Elements of one curved piece.
+    """Elements of one curved piece."""
 
-    Attributes:
-        curve: the piece.
-        parameters: of the elements' ends, in order, shape (elements + 1,).
-        points: the elements' ends, shape (elements + 1, 2).
-    """
-
-    curve: Curve
-    parameters: NDArray[np.float64]
-    points: NDArray[np.float64]
+    curve: Curve  # the piece
+    parameters: NDArray[np.float64]  # of the elements' ends, in order, shape (elements + 1,)
+    points: NDArray[np.float64]  # the elements' ends, shape (elements + 1, 2)
 
     @property
     def chords(self) -> NDArray[np.float64]:
@@ -92,19 +86,12 @@ class CurvedEdges:
 
 @dataclass(frozen=True, kw_only=True)
 class Sides:
-    """Cells at the elements of a curve, one for each side that has a cell.
+    """Cells at the elements of a curve, one for each side that has a cell."""
 
-    Attributes:
-        cells: indices, shape (sides,).
-        elements: index of the element at each, shape (sides,).
-        starts: which corner of the cell is the element's start, shape (sides,).
-        ends: which corner is its end, shape (sides,).
-    """
-
-    cells: NDArray[np.int64]
-    elements: NDArray[np.int64]
-    starts: NDArray[np.int64]
-    ends: NDArray[np.int64]
+    cells: NDArray[np.int64]  # indices, shape (sides,)
+    elements: NDArray[np.int64]  # index of the element at each, shape (sides,)
+    starts: NDArray[np.int64]  # which corner of the cell is the element's start, shape (sides,)
+    ends: NDArray[np.int64]  # which corner is its end, shape (sides,)
 
 
 def curve_cells(

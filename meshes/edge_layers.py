@@ -69,21 +69,13 @@ def with_edge_layers(mesh: NodedMesh, segments: _Ints, corners: _Ints, layers: i
 
 @dataclass(frozen=True, kw_only=True)
 class _Parts:
-    """Parts of the cells of a mesh.
+    """Parts of the cells of a mesh."""
 
-    Attributes:
-        cells: numbers of their corners, shape (n, 4).
-        parents: the cell of which each is a part, shape (n,).
-        places: barycentric coordinates of their corners in these cells, shape (n, 4, 4).
-        segments: of the singular edges, by their ends, shape (m, 2).
-        count: number of corners.
-    """
-
-    cells: _Ints
-    parents: _Ints
-    places: NDArray[np.float64]
-    segments: _Ints
-    count: int
+    cells: _Ints  # numbers of their corners, shape (n, 4)
+    parents: _Ints  # the cell of which each is a part, shape (n,)
+    places: NDArray[np.float64]  # barycentric coordinates of their corners in these cells, shape (n, 4, 4)
+    segments: _Ints  # of the singular edges, by their ends, shape (m, 2)
+    count: int  # number of corners
 
     def bisected_between(self, corners: _Ints, kept: _Ints) -> _Parts:
         """Bisect all edges between some corners, but for those that are kept, given by their ends, shape (n, 2).

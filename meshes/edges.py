@@ -13,15 +13,10 @@ EDGE_CORNERS = np.array([[1, 2], [2, 0], [0, 1]])
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """The edges of some triangles.
+    """The edges of some triangles."""
 
-    Attributes:
-        nodes: the two nodes of each edge, the smaller first, in ascending order, shape (edges, 2).
-        places: the edge opposite each corner of each triangle, shape (triangles, 3).
-    """
-
-    nodes: NDArray[np.int64]
-    places: NDArray[np.int64]
+    nodes: NDArray[np.int64]  # the two nodes of each edge, the smaller first, in ascending order, shape (edges, 2)
+    places: NDArray[np.int64]  # the edge opposite each corner of each triangle, shape (triangles, 3)
 
     def find(self, wanted: NDArray[np.int64]) -> NDArray[np.int64]:
         """Where each pair of nodes of shape (n, 2) stands among the edges; every one must be there."""

@@ -26,34 +26,21 @@ _EDGE, _TRIANGLE = 1, 2
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """A polyline between two regions, or on the boundary; each edge is one of the mesh.
+    """A polyline between two regions, or on the boundary; each edge is one of the mesh."""
 
-    Attributes:
-        key: lines of the same key are the same, perhaps passed the other way.
-        points: shape (n, 2).
-        forward: whether the region's boundary passes the points in their order.
-    """
-
-    key: Key
-    points: NDArray[np.float64]
-    forward: bool
+    key: Key  # lines of the same key are the same, perhaps passed the other way
+    points: NDArray[np.float64]  # shape (n, 2)
+    forward: bool  # whether the region's boundary passes the points in their order
 
 
 @dataclass(frozen=True, kw_only=True)
 class Filling:
-    """The mesh of gmsh.
+    """The mesh of gmsh."""
 
-    Attributes:
-        points: coordinates of nodes in the unit of the outline, shape (nodes, 2).
-        cells: triangles of each region, shape (triangles, 3), clockwise.
-        chains: nodes of each line by its key, in the order of its points.
-        ends: nodes at the points of the lines.
-    """
-
-    points: NDArray[np.float64]
-    cells: list[NDArray[np.int64]]
-    chains: dict[Key, NDArray[np.int64]]
-    ends: dict[Point, int]
+    points: NDArray[np.float64]  # coordinates of nodes in the unit of the outline, shape (nodes, 2)
+    cells: list[NDArray[np.int64]]  # triangles of each region, shape (triangles, 3), clockwise
+    chains: dict[Key, NDArray[np.int64]]  # nodes of each line by its key, in the order of its points
+    ends: dict[Point, int]  # nodes at the points of the lines
 
 
 def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], size: SizeField) -> Filling:

@@ -32,20 +32,14 @@ class SurfaceSegment:
 class TankGeometry:
     """Rectangle ``0 < x < length``, ``-depth < y < 0``; its top is covered by segments from left to right.
 
-    Attributes:
-        length: of the rectangle.
-        depth: of the rectangle.
-        segments: the top.
-        mirrored: whether x = length is a plane of symmetry instead of a wall.
-
     Raises:
         ValueError: if the segments do not cover the top, one after the other, without gap or overlap.
     """
 
-    length: float
-    depth: float
-    segments: tuple[SurfaceSegment, ...]
-    mirrored: bool = False
+    length: float  # of the rectangle
+    depth: float  # of the rectangle
+    segments: tuple[SurfaceSegment, ...]  # the top
+    mirrored: bool = False  # whether x = length is a plane of symmetry instead of a wall
 
     def __post_init__(self) -> None:
         ends = [0.0, *(segment.end for segment in self.segments)]

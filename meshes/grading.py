@@ -21,37 +21,26 @@ _SECTORS = 3
 
 @dataclass(frozen=True, kw_only=True)
 class Grading:
-    """Element sizes of a tank mesh, in the unit of length of the geometry.
+    """Element sizes of a tank mesh, in the unit of length of the geometry."""
 
-    Attributes:
-        surface_sizes: largest element on each segment of the top, from left to right, set by the shortest wave of the
-            requested modes there.
-        bulk_size: largest element anywhere.
-        growth: increase of the element size per unit of distance from the surface, or from a tip.
-        tip_size: radius of the innermost ring around a tip; ``None`` gives no rings (a uniform mesh).
-        ring_ratio: ratio of the radii of successive rings.
-    """
-
+    # largest element on each segment of the top, from left to right, set by the shortest wave of the requested modes
+    # there
     surface_sizes: tuple[float, ...]
-    bulk_size: float
-    growth: float = 0.7
-    tip_size: float | None = None
-    ring_ratio: float = 0.3
+    bulk_size: float  # largest element anywhere
+    growth: float = 0.7  # increase of the element size per unit of distance from the surface, or from a tip
+    tip_size: float | None = None  # radius of the innermost ring around a tip; ``None`` gives no rings (a uniform mesh)
+    ring_ratio: float = 0.3  # ratio of the radii of successive rings
 
 
 @dataclass(frozen=True, kw_only=True)
 class TipRings:
-    """Rings of triangles around one tip.
+    """Rings of triangles around one tip."""
 
-    Attributes:
-        centre: abscissa of the tip, in the unit of the mesh.
-        radii: radii from the innermost to the outermost ring, in the unit of the mesh, shape (rings,).
-        angles: directions of the nodes of a ring, rad, shape (nodes,), from the +x side (0) clockwise through the
-            liquid to -x (π).
-    """
-
-    centre: float
+    centre: float  # abscissa of the tip, in the unit of the mesh
+    # radii from the innermost to the outermost ring, in the unit of the mesh, shape (rings,)
     radii: NDArray[np.float64]
+    # directions of the nodes of a ring, rad, shape (nodes,), from the +x side (0) clockwise through the liquid to -x
+    # (π)
     angles: NDArray[np.float64]
 
     def nodes(self) -> NDArray[np.float64]:

@@ -7,8 +7,13 @@ from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
+import basix.ufl
 import gmsh
 import numpy as np
+import ufl
+from dolfinx import geometry
+from dolfinx.mesh import create_mesh
+from mpi4py import MPI
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
@@ -16,8 +21,8 @@ from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError
-from hydroelastic.meshes.triangle_crossings import crossing_place
 from hydroelastic.meshes.volume_file import lies_in_plane, solids_in
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.wetted_hulls import (
     Hydrostatics,
     OpenSurfaceError,
@@ -260,3 +265,33 @@ def _of_solid(wetted: _Entities) -> tuple[Hydrostatics, np.ndarray]:
         raise MeshError("the faces of the hull do not close it")
     at = np.concatenate(points)
     return hydrostatics_of_surface(at, np.sign(lid[2]) * every), np.array([at.min(axis=0), at.max(axis=0)])
+
+
+def crossing_place(surface: Triangles) -> FloatArray | None:
+    """Return a place near which one side of a triangle passes through another triangle, shape (3,); ``None`` if none
+    does. Triangles with a common corner are not looked at."""
+    element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
+    mesh = create_mesh(MPI.COMM_SELF, cells=surface.corners, x=surface.points, e=ufl.Mesh(element))
+    mesh.topology.create_entities(1)
+    tree = geometry.bb_tree(mesh, 2)
+    boxes = np.asarray(geometry.compute_collisions_trees(tree, tree)).reshape(-1, 2)
+    pairs = mesh.topology.original_cell_index[boxes]
+    own, other = surface.corners[pairs[:, 0]], surface.corners[pairs[:, 1]]
+    apart = ~(own[:, :, None] == other[:, None, :]).any(axis=(1, 2))
+    own, other = own[apart], other[apart]
+    one, two, three = (surface.points[other[:, corner]] for corner in range(3))
+    for corner in range(3):
+        start, end = surface.points[own[:, corner]], surface.points[own[:, (corner + 1) % 3]]
+        through = _volumes(one, two, three, start) * _volumes(one, two, three, end) < 0.0
+        around = [_volumes(start, end, *pair) > 0.0 for pair in ((one, two), (two, three), (three, one))]
+        found = np.flatnonzero(through & np.isin(np.sum(around, axis=0), (0, 3)))
+        if len(found):
+            place: FloatArray = 0.5 * (start[found[0]] + end[found[0]])
+            return place
+    return None
+
+
+def _volumes(one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray) -> FloatArray:
+    """Six times the volumes of tetrahedra with their signs, corners of shape (n, 3) → (n,)."""
+    volumes: FloatArray = np.einsum("na,na->n", np.cross(two - one, three - one), four - one)
+    return volumes

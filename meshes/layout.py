@@ -30,33 +30,22 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 
 @dataclass(frozen=True, kw_only=True)
 class Wedge:
-    """The rings of one region at one of its corners.
-
-    Attributes:
-        corner: its point.
-        nodes: shape (rings, rays, 2), see `rings.wedge_nodes`.
-    """
+    """The rings of one region at one of its corners."""
 
     graded: Point
-    nodes: NDArray[np.float64]
+    nodes: NDArray[np.float64]  # shape (rings, rays, 2), see `rings.wedge_nodes`
 
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """An outline with its rings.
+    """An outline with its rings."""
 
-    Attributes:
-        outline: the domain.
-        rings: where rings meet curves, by the curve's index and whether they are at its start.
-        wedges: rings of the regions, by the region's index and the place in its loop of the curve that comes to
-            the corner.
-        elements: of each curve, the parameters of the elements' ends between the rings.
-    """
-
-    outline: Outline
+    outline: Outline  # the domain
+    # where rings meet curves, by the curve's index and whether they are at its start
     rings: dict[tuple[int, bool], RingEnds]
+    # rings of the regions, by the region's index and the place in its loop of the curve that comes to the corner
     wedges: dict[tuple[int, int], Wedge]
-    elements: list[NDArray[np.float64]]
+    elements: list[NDArray[np.float64]]  # of each curve, the parameters of the elements' ends between the rings
 
     def middle(self, number: int) -> NDArray[np.float64]:
         """Ends of a curve's elements from ring to ring, shape (n, 2)."""

@@ -33,14 +33,10 @@ _AT_EDGE = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class NestedMeshes:
-    """The meshes of one domain with straight boundaries.
+    """The meshes of one domain with straight boundaries."""
 
-    Attributes:
-        make: creates the first mesh, of straight triangles: those at a corner are its fan.
-        corners: the corners, each with the radius of its fan, or a larger one, as the outer one; no two fans touch.
-    """
-
-    make: Callable[[], TaggedMesh]
+    make: Callable[[], TaggedMesh]  # creates the first mesh, of straight triangles: those at a corner are its fan
+    # the corners, each with the radius of its fan, or a larger one, as the outer one; no two fans touch
     graded_points: tuple[GradedPoint, ...]
 
     def mesh(self, halvings: int, exponents: tuple[float, ...] | None = None) -> TaggedMesh:

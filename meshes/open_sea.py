@@ -27,17 +27,11 @@ _SIDEWAYS = (LEFT_WALL, RIGHT_WALL)
 
 @dataclass(frozen=True, kw_only=True)
 class CellLayers:
-    """Distances of the outer sides of successive layers of cells from the basin, ascending, in the unit of the mesh.
+    """Distances of the outer sides of successive layers of cells from the basin, ascending, in the unit of the mesh."""
 
-    Attributes:
-        sideways: distances from the left and the right wall, shape (layers,).
-        below: distances from the bottom, if it is extended, shape (layers,).
-        above: distances from the lid, if it is extended, shape (layers,).
-    """
-
-    sideways: NDArray[np.float64]
-    below: NDArray[np.float64]
-    above: NDArray[np.float64]
+    sideways: NDArray[np.float64]  # distances from the left and the right wall, shape (layers,)
+    below: NDArray[np.float64]  # distances from the bottom, if it is extended, shape (layers,)
+    above: NDArray[np.float64]  # distances from the lid, if it is extended, shape (layers,)
 
 
 def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> TaggedMesh:

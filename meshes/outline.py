@@ -23,23 +23,15 @@ _COARSE = 65
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """A directed smooth piece between two points.
+    """A directed smooth piece between two points."""
 
-    Attributes:
-        name: physical name of its facets; empty for an inner line without a group.
-        start: first point.
-        end: last point, another than the first.
-        path: points, shape (n, 2), at parameters 0 … 1, shape (n,), from the start to the end; ``None`` is straight.
-        size: largest element on the curve; elements grow with the distance from it. Infinite sets no limit.
-        cut: whether the regions on both sides have nodes of their own on it.
-    """
-
-    name: str
-    start: Point
-    end: Point
+    name: str  # physical name of its facets; empty for an inner line without a group
+    start: Point  # first point
+    end: Point  # last point, another than the first
+    # points, shape (n, 2), at parameters 0 … 1, shape (n,), from the start to the end; ``None`` is straight
     path: Path | None = None
-    size: float = inf
-    cut: bool = False
+    size: float = inf  # largest element on the curve; elements grow with the distance from it. Infinite sets no limit.
+    cut: bool = False  # whether the regions on both sides have nodes of their own on it
 
     def at(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points at parameters 0 … 1, shape (n, 2); the ends are exact."""
@@ -61,45 +53,30 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class Region:
-    """A part of the domain: its cells have one physical name, which several regions may share.
+    """A part of the domain: its cells have one physical name, which several regions may share."""
 
-    Attributes:
-        name: physical name of the cells.
-        loop: its boundary counterclockwise, as (index of a curve, whether it is passed from its start to its end).
-    """
-
-    name: str
+    name: str  # physical name of the cells
+    # its boundary counterclockwise, as (index of a curve, whether it is passed from its start to its end)
     loop: tuple[tuple[int, bool], ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class GradedPoint:
-    """A point towards which the mesh is graded by rings of triangles.
+    """A point towards which the mesh is graded by rings of triangles."""
 
-    Attributes:
-        point: an end of curves.
-        inner: radius that the innermost ring shall not exceed; infinite for a single ring.
-        outer: radius of the outermost ring; the mesh takes a smaller one where curves bend, have a size or are near.
-    """
-
-    point: Point
-    inner: float
+    point: Point  # an end of curves
+    inner: float  # radius that the innermost ring shall not exceed; infinite for a single ring
+    # radius of the outermost ring; the mesh takes a smaller one where curves bend, have a size or are near
     outer: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class Chords:
-    """Straight pieces of curves, for measures that need no accuracy.
+    """Straight pieces of curves, for measures that need no accuracy."""
 
-    Attributes:
-        starts: first points (x, y) in the unit of the outline, shape (n, 2).
-        ends: last points in the unit of the outline, shape (n, 2).
-        curves: index of the curve that each is a piece of, shape (n,).
-    """
-
-    starts: NDArray[np.float64]
-    ends: NDArray[np.float64]
-    curves: NDArray[np.int64]
+    starts: NDArray[np.float64]  # first points (x, y) in the unit of the outline, shape (n, 2)
+    ends: NDArray[np.float64]  # last points in the unit of the outline, shape (n, 2)
+    curves: NDArray[np.int64]  # index of the curve that each is a piece of, shape (n,)
 
 
 @dataclass(frozen=True, kw_only=True)

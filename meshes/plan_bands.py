@@ -16,27 +16,16 @@ _ON_MIRROR = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class Band:
-    """Nodes around a loop or a part of it: rows of parallels, from the inside out.
-
-    Attributes:
-        loop: the loop.
-        places: of the columns.
-        distances: of the rows; one row, 0, of a wall.
-        first: number of its first node; they are numbered row by row.
-        closed: whether it goes all around; else it ends at mirror planes.
-        inside: name of the region on its inner side, "" where there is none.
-        outside: name of the region on its outer side.
-        mirrors: the mirror planes.
-    """
+    """Nodes around a loop or a part of it: rows of parallels, from the inside out."""
 
     loop: Loop
-    places: NDArray[np.float64]
-    distances: NDArray[np.float64]
-    first: int
-    closed: bool
-    inside: str
-    outside: str
-    mirrors: Mirrors
+    places: NDArray[np.float64]  # of the columns
+    distances: NDArray[np.float64]  # of the rows; one row, 0, of a wall
+    first: int  # number of its first node; they are numbered row by row
+    closed: bool  # whether it goes all around; else it ends at mirror planes
+    inside: str  # name of the region on its inner side, "" where there is none
+    outside: str  # name of the region on its outer side
+    mirrors: Mirrors  # the mirror planes
 
     @property
     def size(self) -> int:

@@ -19,32 +19,21 @@ _CORNER_GROWTH = 0.7
 
 @dataclass(frozen=True, kw_only=True)
 class Face:
-    """A region to be filled.
+    """A region to be filled."""
 
-    Attributes:
-        name: physical name.
-        outside: nodes around it, anticlockwise.
-        inside: nodes around each of its holes, clockwise.
-    """
-
-    name: str
-    outside: NDArray[np.int64]
-    inside: tuple[NDArray[np.int64], ...]
+    name: str  # physical name
+    outside: NDArray[np.int64]  # nodes around it, anticlockwise
+    inside: tuple[NDArray[np.int64], ...]  # nodes around each of its holes, clockwise
 
 
 @dataclass(frozen=True, kw_only=True)
 class Faces:
-    """All regions to be filled.
+    """All regions to be filled."""
 
-    Attributes:
-        points: the bands' nodes, and that at which two mirror planes meet if it is in the tank, shape (nodes, 2).
-        faces: the regions.
-        divided: pairs of nodes between which gmsh may put others: those on mirror planes.
-    """
-
+    # the bands' nodes, and that at which two mirror planes meet if it is in the tank, shape (nodes, 2)
     points: NDArray[np.float64]
-    faces: list[Face]
-    divided: set[tuple[int, int]]
+    faces: list[Face]  # the regions
+    divided: set[tuple[int, int]]  # pairs of nodes between which gmsh may put others: those on mirror planes
 
 
 def faces_between(wall: PlanRegion, bands: list[Band], mirrors: Mirrors) -> Faces:

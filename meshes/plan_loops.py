@@ -34,13 +34,9 @@ _FLAT = 1e-9
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PolygonLoop:
-    """A closed polygon; its interior is on the left of its sides.
+    """A closed polygon; its interior is on the left of its sides."""
 
-    Attributes:
-        corners: shape (corners, 2), anticlockwise.
-    """
-
-    corners: NDArray[np.float64]
+    corners: NDArray[np.float64]  # shape (corners, 2), anticlockwise
 
     def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return points of the mitred parallel outside it (inside if negative)."""
@@ -123,14 +119,9 @@ class PolygonLoop:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CircleLoop:
-    """A circle, anticlockwise.
+    """A circle, anticlockwise."""
 
-    Attributes:
-        centre: shape (2,).
-        radius: its radius.
-    """
-
-    centre: NDArray[np.float64]
+    centre: NDArray[np.float64]  # shape (2,)
     radius: float
 
     def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -167,17 +158,11 @@ Loop = PolygonLoop | CircleLoop
 
 @dataclass(frozen=True, kw_only=True)
 class PlanRegion:
-    """A region of a plan.
+    """A region of a plan."""
 
-    Attributes:
-        name: physical name of its cells.
-        outside: its outer loop.
-        inside: loops of its holes.
-    """
-
-    name: str
-    outside: Loop
-    inside: tuple[Loop, ...] = ()
+    name: str  # physical name of its cells
+    outside: Loop  # its outer loop
+    inside: tuple[Loop, ...] = ()  # loops of its holes
 
     @property
     def loops(self) -> tuple[Loop, ...]:

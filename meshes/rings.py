@@ -43,17 +43,11 @@ def ring_triangles(rings: int, rays: int) -> NDArray[np.int64]:
 
 @dataclass(frozen=True, kw_only=True)
 class RingEnds:
-    """Where the rings of one corner meet one curve.
+    """Where the rings of one corner meet one curve."""
 
-    Attributes:
-        parameters: of the curve, from the innermost ring to the outermost, shape (rings,).
-        points: nodes, shape (rings, 2).
-        angles: directions from the corner to the nodes, shape (rings,).
-    """
-
-    parameters: NDArray[np.float64]
-    points: NDArray[np.float64]
-    angles: NDArray[np.float64]
+    parameters: NDArray[np.float64]  # of the curve, from the innermost ring to the outermost, shape (rings,)
+    points: NDArray[np.float64]  # nodes, shape (rings, 2)
+    angles: NDArray[np.float64]  # directions from the corner to the nodes, shape (rings,)
 
 
 def wedge_nodes(

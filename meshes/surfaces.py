@@ -26,18 +26,12 @@ class Surface:
 
     Its points have (ρ − R) cos α = z sin α, with ρ the distance from the axis and z along it: α = 0 is a cylinder,
     R = 0 a cone, and R = 0 with α = π/2 a plane. A sphere has |x − c| = R.
-
-    Attributes:
-        point: c, on the axis.
-        axis: unit vector along it; ``None`` of a sphere.
-        radius: R.
-        slope: cos α and sin α.
     """
 
-    point: FloatArray
-    axis: FloatArray | None
-    radius: float
-    slope: tuple[float, float] = (1.0, 0.0)
+    point: FloatArray  # c, on the axis
+    axis: FloatArray | None  # unit vector along it; ``None`` of a sphere
+    radius: float  # R
+    slope: tuple[float, float] = (1.0, 0.0)  # cos α and sin α
 
     def distances(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the signed distances of points (n, 3), shape (n,), and their gradients (n, 3)."""

@@ -26,8 +26,8 @@ class TooManyCellsError(MeshError):
 
     def __str__(self) -> str:
         return (
-            f"about {self.cells:.1g} tetrahedra are needed, and {self.most:.1g} can be made: cells are as small as "
-            "the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow over a large depth"
+            f"about {self.cells:.1g} tetrahedra are needed, and {self.most:.1g} can be made: cells are as small "
+            "as the liquid is shallow, as its waves are short, or as a wall is curved or a gap narrow in deep liquid"
         )
 
 
@@ -37,57 +37,36 @@ FARTHEST = 1e30
 
 @dataclass(frozen=True, kw_only=True)
 class CurvedCells:
-    """Cells whose geometry is polynomial; all the others are straight.
+    """Cells whose geometry is polynomial; all the others are straight."""
 
-    Attributes:
-        degree: of the geometry, at least 2.
-        cells: indices of the curved cells, shape (curved,).
-        nodes: their nodes in the order of ``basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))``, the
-            corners first as in `TaggedMesh.cells`, shape (curved, nodes per cell, 2).
-    """
-
-    degree: int
-    cells: NDArray[np.int64]
+    degree: int  # of the geometry, at least 2
+    cells: NDArray[np.int64]  # indices of the curved cells, shape (curved,)
+    # their nodes in the order of ``basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))``, the corners first
+    # as in `TaggedMesh.cells`, shape (curved, nodes per cell, 2)
     nodes: NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
-    """Largest deviation of the edges of a mesh from the curves that they approximate, measured between their nodes.
+    """Largest deviation of the edges of a mesh from the curves that they approximate, measured between their nodes."""
 
-    Attributes:
-        distance: in units of length.
-        angle: between the normals, radians.
-    """
-
-    distance: float = 0.0
-    angle: float = 0.0
+    distance: float = 0.0  # in units of length
+    angle: float = 0.0  # between the normals, radians
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaggedMesh:
-    """Triangles and boundary edges, each with the tag of a physical group.
+    """Triangles and boundary edges, each with the tag of a physical group."""
 
-    Attributes:
-        points: node coordinates, m or dimensionless, shape (nodes, 2).
-        cells: node indices, shape (cells, 3).
-        cell_tags: physical group of each cell, shape (cells,).
-        facets: node indices of the tagged edges, shape (facets, 2).
-        facet_tags: physical group of each tagged edge, shape (facets,).
-        cell_names: physical name → tag, for cells.
-        facet_names: physical name → tag, for edges.
-        curved: the cells that are curved, ``None`` if all are straight.
-        deviation: deviation of the edges from the meshed curves; zero where that is not known.
-    """
-
-    points: NDArray[np.float64]
-    cells: NDArray[np.int64]
-    cell_tags: NDArray[np.int32]
-    facets: NDArray[np.int64]
-    facet_tags: NDArray[np.int32]
-    cell_names: dict[str, int]
-    facet_names: dict[str, int]
-    curved: CurvedCells | None = None
+    points: NDArray[np.float64]  # node coordinates, m or dimensionless, shape (nodes, 2)
+    cells: NDArray[np.int64]  # node indices, shape (cells, 3)
+    cell_tags: NDArray[np.int32]  # physical group of each cell, shape (cells,)
+    facets: NDArray[np.int64]  # node indices of the tagged edges, shape (facets, 2)
+    facet_tags: NDArray[np.int32]  # physical group of each tagged edge, shape (facets,)
+    cell_names: dict[str, int]  # physical name → tag, for cells
+    facet_names: dict[str, int]  # physical name → tag, for edges
+    curved: CurvedCells | None = None  # the cells that are curved, ``None`` if all are straight
+    # deviation of the edges from the meshed curves; zero where that is not known
     deviation: Deviation = field(default_factory=Deviation)
 
     def require(self, *, cells: Iterable[str], facets: Iterable[str]) -> None:

@@ -28,21 +28,14 @@ _DIVIDED = np.array([[1, 1, 0, 0], [0, 2, 3, 1], [0, 0, 4, 8], [0, 0, 0, 8]])
 
 @dataclass(frozen=True, kw_only=True)
 class VolumeMesh:
-    """The mesh of a volume with what tells its geometry's error.
+    """The mesh of a volume with what tells its geometry's error."""
 
-    Attributes:
-        noded: the mesh.
-        volume: the exact volume, of the part that is meshed.
-        surfaces: of a mesh to be refined, the surface on which nodes of a group of facets lie, or of several groups.
-        curved: of a mesh to be refined, whether any of them is curved.
-        straightened: volume by which straightened cells changed.
-    """
-
-    noded: NodedMesh
-    volume: float
+    noded: NodedMesh  # the mesh
+    volume: float  # the exact volume, of the part that is meshed
+    # of a mesh to be refined, the surface on which nodes of a group of facets lie, or of several groups
     surfaces: dict[tuple[str, ...], Surface] = field(default_factory=dict)
-    curved: bool = False
-    straightened: float = 0.0
+    curved: bool = False  # of a mesh to be refined, whether any of them is curved
+    straightened: float = 0.0  # volume by which straightened cells changed
 
 
 def read_gmsh(degree: int, faces: dict[int, str], layers: dict[int, str] | None = None) -> NodedMesh:

@@ -6,24 +6,26 @@ geometry's degree. A smooth bed through points moves the nodes of a tank with a 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 from math import pi
 
 import gmsh
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
+from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
 from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls, release_numbers
+from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.edge_layers import with_edge_layers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
 from hydroelastic.meshes.interrupts import interrupts_deferred
-from hydroelastic.meshes.narrow_gaps import GROWTH, narrow_gaps
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
-from hydroelastic.meshes.singular_edges import singular_edges, singular_segments
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
 from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, TooManyCellsError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
@@ -31,6 +33,7 @@ from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (
     baffle_faces,
     below,
+    box_around,
     face,
     faces_of,
     float_solid,
@@ -39,9 +42,9 @@ from hydroelastic.meshes.volume_solids import (
     require_inside,
 )
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.dofs import body_name
-from hydroelastic.physics.level_tank import Cylinder, FilePlan, middle_of
-from hydroelastic.physics.plate import Disc
+from hydroelastic.physics.dofs import body_name, body_number
+from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, middle_of
+from hydroelastic.physics.plate import Disc, Rectangle
 from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
@@ -67,26 +70,32 @@ _THINNEST = 1e-2
 # Cells around a curved wall that is refined later; of 8 around a sphere some were inverted, of 12 none.
 _FEWEST_AROUND = 12
 
+# Part of the size at which the chord of a wall would meet the other one; measured: of 0.5 some cells are inverted.
+_SAFE = 0.2
+GROWTH = 2.0 * _SAFE
+"""Growth of that size per distance s from the place, as the gap grows like s²/2r."""
+
+# The vertical part of the normal of a wall that meets the still surface at right angles is less.
+_UPRIGHT = 0.1
+# By so much boxes around edges are larger than these.
+_BOXES = 1e-6
+# Cosine of the angle between two segments from which they meet in a corner: 45° from straight. Of circles segments are
+# eighths at most.
+_STRAIGHT = -0.7
+
 
 @dataclass(frozen=True, kw_only=True)
 class VolumeSizes:
-    """Sizes of cells, in units of the tank.
+    """Sizes of cells, in units of the tank."""
 
-    Attributes:
-        edge: at the edges of plates.
-        bulk: elsewhere.
-        geometry: degree of the geometry of curved cells.
-        around: least number of cells around a curved wall.
-        refinements: how often straight cells of gmsh are to be divided into eight on all processes, which have these
-            sizes then; see `meshes.refinement`.
-        layers: how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`.
-    """
-
-    edge: float
-    bulk: float
-    geometry: int
-    around: int = 16
+    edge: float  # at the edges of plates
+    bulk: float  # elsewhere
+    geometry: int  # degree of the geometry of curved cells
+    around: int = 16  # least number of cells around a curved wall
+    # how often straight cells of gmsh are to be divided into eight on all processes, which have these sizes then; see
+    # `meshes.refinement`
     refinements: int = 0
+    # how often the cells at singular edges are cut, where they are not refined; see `meshes.edge_layers`
     layers: int = 0
 
     @property
@@ -145,17 +154,11 @@ def volume_mesh(
 
 @dataclass(frozen=True, kw_only=True)
 class _Parts:
-    """The parts of a model of gmsh.
+    """The parts of a model of gmsh."""
 
-    Attributes:
-        layers: name of the liquid of each volume.
-        faces: name of each face of the liquids, "" of walls.
-        volume: of the liquids.
-    """
-
-    layers: dict[int, str]
-    faces: dict[int, str]
-    volume: float
+    layers: dict[int, str]  # name of the liquid of each volume
+    faces: dict[int, str]  # name of each face of the liquids, "" of walls
+    volume: float  # of the liquids
 
 
 def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
@@ -316,7 +319,7 @@ def _least_radius(solid: SolidFloat) -> float:
     return min([0.5 * min(solid.size), *(r for r, z in solid.outline if r > 0.0 and z <= 0.0)])
 
 
-def _gaps(tank: VolumeTank, sizes: VolumeSizes) -> list[tuple[tuple[float, float], float]]:
+def _gaps(tank: VolumeTank, sizes: VolumeSizes) -> list[tuple[FloatArray, float]]:
     return [(place, size) for place, size in narrow_gaps(tank) if size < sizes.bulk]
 
 
@@ -362,3 +365,106 @@ def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
         "HighOrderOptimize": 0,
     }.items():
         gmsh.option.setNumber(f"Mesh.{option}", value)
+
+
+def narrow_gaps(tank: VolumeTank) -> Iterator[tuple[FloatArray, float]]:
+    """Yield the place in the plan, and the size of cells there, of gaps beside round columns.
+
+    A chord of the length h is h²/8r from its arc, so that h = √(8 r gap) would reach the other wall.
+    """
+    discs = [one for one in tank.columns if isinstance(one, Disc)]
+    for disc in discs:
+        centre = np.array(disc.position)
+        for place, gap in _beside_walls(tank, centre, disc.radius):
+            yield place, _size(disc.radius, gap)
+    for one, other in combinations(discs, 2):
+        between = np.subtract(other.position, one.position)
+        distance = float(np.linalg.norm(between))
+        place = one.position + between * one.radius / distance
+        yield place, _size(min(one.radius, other.radius), distance - one.radius - other.radius)
+
+
+def _size(radius: float, gap: float) -> float:
+    return _SAFE * float(np.sqrt(8.0 * radius * max(gap, 0.0)))
+
+
+def _beside_walls(tank: VolumeTank, centre: FloatArray, radius: float) -> Iterator[tuple[FloatArray, float]]:
+    if isinstance(tank.plan, Box):
+        for axis, length in enumerate((tank.plan.length, tank.plan.width)):
+            for wall in (0.0, length):
+                place = centre.copy()
+                place[axis] = wall
+                yield place, abs(centre[axis] - wall) - radius
+    elif isinstance(tank.plan, Cylinder):
+        distance = float(np.linalg.norm(centre))
+        if distance > 0.0:
+            yield centre * tank.plan.radius / distance, tank.plan.radius - distance - radius
+
+
+def singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) -> set[int]:
+    """Return the curves of gmsh's current model beside which ψ is singular.
+
+    Edges of plates, corners of floats and columns, and tips of baffles; not those that planes of symmetry make, nor
+    where walls of a float meet the still surface at right angles.
+    """
+    found: set[int] = set()
+    beside: set[int] = set()
+    tips: list[int] = []
+    for tag, name in faces.items():
+        edges = [edge for _, edge in gmsh.model.getBoundary([(2, tag)], oriented=False)]
+        if name == BAFFLE:
+            tips += edges
+            continue
+        beside |= {*edges, *(edge for dim, edge in gmsh.model.mesh.getEmbedded(2, tag) if dim == 1)}
+        number = body_number(name)
+        if number is None:
+            continue
+        for edge in edges:
+            box = box_around((1, edge))
+            level = number > len(tank.plates) and np.abs(box[:, 2]).max() < _BOXES and _is_upright(tag, edge)
+            if not level and not any(
+                mirror is not None and np.abs(box[:, axis] - mirror).max() < _BOXES
+                for axis, mirror in enumerate(mirrors)
+            ):
+                found.add(edge)
+    found |= {edge for edge in tips if tips.count(edge) == 1} - beside
+    corners = [corner for outline in tank.columns if isinstance(outline, Rectangle) for corner in outline.corners]
+    for edge in beside if corners else ():
+        low, high = box_around((1, edge))
+        if any(np.abs([*(low[:2] - corner), *(high[:2] - corner)]).max() < _BOXES for corner in corners):
+            found.add(edge)
+    return found
+
+
+def singular_segments(mesh: NodedMesh, edges: set[int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the edges of cells on curves of gmsh's current model, and the points in which these meet at an angle."""
+    corners = np.unique(mesh.cells[:, :4])
+    nearest = cKDTree(mesh.points[corners])
+    found = [np.empty((0, 2), np.int64)]
+    for edge in sorted(edges):
+        # Of each edge of a cell the ends come first, then the nodes between them.
+        tags, coordinates, _ = gmsh.model.mesh.getNodes(1, edge, includeBoundary=True)
+        places = dict(zip(tags, coordinates.reshape(-1, 3), strict=True))
+        kinds, _, nodes = gmsh.model.mesh.getElements(1, edge)
+        # The pole of a sphere is a curve without any.
+        for kind, own in zip(kinds, nodes, strict=True):
+            ends = own.reshape(-1, gmsh.model.mesh.getElementProperties(kind)[3])[:, :2]
+            found.append(corners[nearest.query([[places[end] for end in pair] for pair in ends])[1]])
+    every = np.concatenate(found)
+    ends, counts = np.unique(every, return_counts=True)
+    angles = []
+    for end in ends[counts > 1]:
+        own = every[(every == end).any(axis=1)]
+        along = mesh.points[own[own != end]] - mesh.points[end]
+        along /= np.linalg.norm(along, axis=1)[:, None]
+        if len(along) > 2 or along[0] @ along[1] > _STRAIGHT:
+            angles.append(end)
+    return every, np.array(angles, dtype=np.int64)
+
+
+def _is_upright(face: int, edge: int) -> bool:
+    """Whether a face meets the still surface at right angles, in the middle of an edge of it."""
+    (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
+    place = gmsh.model.getValue(1, edge, [0.5 * (start + end)])
+    normal = gmsh.model.getNormal(face, gmsh.model.getParametrization(2, face, place))
+    return bool(abs(normal[2]) < _UPRIGHT)

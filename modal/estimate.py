@@ -19,21 +19,13 @@ class NoEstimateError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """One estimate of the first elastic tone.
+    """One estimate of the first elastic tone."""
 
-    Attributes:
-        omega: angular frequency, rad/s, or ``None`` where the method has no meaning.
-        added_mass_per_length: m_a = (EI κ⁴ + s ρ g)/ω² − m, kg/m², or ``None``.
-        note: what the method neglects, or why there is no number.
-        bound: which exact quantity lies below ``omega``.
-        mode_index: number of that quantity, from 1; ``None`` with bound "none".
-    """
-
-    omega: float | None
-    added_mass_per_length: float | None
-    note: str
-    bound: Bound
-    mode_index: int | None = None
+    omega: float | None  # angular frequency, rad/s, or ``None`` where the method has no meaning
+    added_mass_per_length: float | None  # m_a = (EI κ⁴ + s ρ g)/ω² − m, kg/m², or ``None``
+    note: str  # what the method neglects, or why there is no number
+    bound: Bound  # which exact quantity lies below ``omega``
+    mode_index: int | None = None  # number of that quantity, from 1; ``None`` with bound "none"
 
     def __post_init__(self) -> None:
         """Refuse a number that is not one, and a bound without its index."""
@@ -57,30 +49,12 @@ def added_mass_from_frequency(beam: FloatingBeam, omega: float) -> float:
     not appear.
 
     Args:
-        beam: the problem.
         omega: frequency of the wet tone, rad/s, positive.
 
     Source: theory of the aquarium, docs, § 1.3, erratum 9.
     """
     _check_omega(omega)
     return beam.first_dry_stiffness / omega**2 - beam.mass_per_length
-
-
-def paper_equivalent_mass(beam: FloatingBeam, omega: float) -> float:
-    """Return the paper's μ* = μ₀ ω₀²/ω², kg/m², with the dry frequency ω₀ and without hydrostatics.
-
-    With hydrostatics it can fall below the beam's own mass; `added_mass_from_frequency` is the sound definition.
-
-    Args:
-        beam: the problem.
-        omega: frequency of the wet tone, rad/s, positive.
-
-    Source: "On the liquid added mass under the oscillations of the elastic rod floating on the aquatorium surface",
-    Bauman Moscow State Technical University, 2018 (in Russian).
-    """
-    _check_omega(omega)
-    bending = beam.first_dry_stiffness - beam.hydrostatic_stiffness
-    return bending / omega**2
 
 
 def frequency_from_added_mass(beam: FloatingBeam, added_mass: float) -> float:

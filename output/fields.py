@@ -23,9 +23,9 @@ from hydroelastic.output.plots import (
     arrow_key,
     mode_colours,
     new_page,
+    page_box,
     page_style,
     pixels,
-    place,
     plotter,
     write_caption,
     write_gif,
@@ -214,7 +214,7 @@ def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None
     for number, (field, view) in enumerate(zip(fields, views, strict=True)):
         left, top = 0.4 + number % columns * (panel + 0.4), height - 0.15 - number // columns * row
         drawn = (view.top - view.bottom) / field.length * panel
-        axes = figure.add_axes(place(figure, left, top - 0.72 - drawn, panel, drawn))
+        axes = figure.add_axes(page_box(figure, left, top - 0.72 - drawn, panel, drawn))
         _draw(axes, field, view, pages.of(view).scene, vectors=False, thin=0.62)
         axes.set_axis_off()
         figure.text((left + 0.5 * panel) / PAGE, (top - 0.36) / height, titles[number], size=size,
@@ -253,7 +253,7 @@ class _Page:
         height = round(_FOOTER + high + _HEADING, 2)
         self.figure = new_page(width, height)
         self.axes = axes = self.figure.add_axes(
-            place(self.figure, 0.5 * (PAGE - wide - beside) + 0.45, _FOOTER, wide, high)
+            page_box(self.figure, 0.5 * (PAGE - wide - beside) + 0.45, _FOOTER, wide, high)
         )
         self.scene = Scene(view, max(round(wide * width / PAGE), 2))
         axes.spines[:].set_visible(False)

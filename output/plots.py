@@ -269,7 +269,7 @@ def add_colour_bar(figure: Figure, colours: ScalarMappable) -> Colorbar:
     """A horizontal scale of colours below the keys of a page."""
     from matplotlib.ticker import MaxNLocator
 
-    axes = figure.add_axes(place(figure, 2.8, 1.02, 6.4, 0.2))
+    axes = figure.add_axes(page_box(figure, 2.8, 1.02, 6.4, 0.2))
     axes.tick_params(length=5.0)
     return figure.colorbar(colours, cax=axes, orientation="horizontal", ticks=MaxNLocator(8, steps=(1, 2, 5, 10)))
 
@@ -279,7 +279,9 @@ def write_meaning(figure: Figure, words: str) -> Text:
     return figure.text(9.7 / PAGE, 1.12 / figure.get_figheight(), words, size=15.0, va="center", parse_math=False)
 
 
-def place(figure: Figure, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
+def page_box(
+    figure: Figure, left: float, bottom: float, width: float, height: float
+) -> tuple[float, float, float, float]:
     """A place in inches of a page in parts of it."""
     across, up = figure.get_size_inches()
     return left / across, bottom / up, width / across, height / up
@@ -392,7 +394,7 @@ def plotter(size: Sequence[int]) -> pyvista.Plotter:
 
 def show_image(figure: Figure, scene: pyvista.Plotter, left: float, bottom: float, width: float, height: float) -> None:
     """Render a scene into a rectangle of a page, in inches."""
-    axes = figure.add_axes(place(figure, left, bottom, width, height))
+    axes = figure.add_axes(page_box(figure, left, bottom, width, height))
     axes.set_axis_off()
     axes.imshow(scene.screenshot(return_img=True), aspect="auto")
     scene.close()

@@ -38,22 +38,14 @@ _MOST_STEPS = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Attachment:
-    """A spring and damper at a point, in SI units per metre of width, of whole solids with one metre more.
+    """A spring and damper at a point, in SI units per metre of width, of whole solids with one metre more."""
 
-    Attributes:
-        body: index of the body.
-        other: index of the body at its other end; ``None`` if that end is fixed.
-        point: (x, y) where it holds, m.
-        stiffness: K, forces by displacements in heave, sway and roll about the point: N/m², N/m, N; symmetric.
-        damping: B, the same by velocities, kg/(m s), kg/s, kg m/s; symmetric, and positive or zero.
-        drag: β of heave, sway and roll, kg/m² of the first two, kg m of roll; positive or zero.
-    """
-
-    body: int
-    other: int | None = None
-    point: tuple[float, float]
-    stiffness: Matrix
-    damping: Matrix
+    body: int  # index of the body
+    other: int | None = None  # index of the body at its other end; ``None`` if that end is fixed
+    point: tuple[float, float]  # (x, y) where it holds, m
+    stiffness: Matrix  # K, forces by displacements in heave, sway and roll about the point: N/m², N/m, N; symmetric
+    damping: Matrix  # B, the same by velocities, kg/(m s), kg/s, kg m/s; symmetric, and positive or zero
+    # β of heave, sway and roll, kg/m² of the first two, kg m of roll; positive or zero
     drag: tuple[float, float, float]
 
     def scaled(self, units: Scales) -> ScaledAttachment:
@@ -101,18 +93,12 @@ class OutsideForces:
     """Forces from outside on the motions of all bodies. Shapes: m motions, d drags.
 
     They are of one kind of units throughout; what they act on may be anything with m motions.
-
-    Attributes:
-        stiffness: K, shape (m, m).
-        damping: B, shape (m, m).
-        drag: β of each drag, shape (d,).
-        paths: displacement in the direction of each drag by a unit of each motion, shape (d, m).
     """
 
-    stiffness: NDArray[np.float64]
-    damping: NDArray[np.float64]
-    drag: NDArray[np.float64]
-    paths: NDArray[np.float64]
+    stiffness: NDArray[np.float64]  # K, shape (m, m)
+    damping: NDArray[np.float64]  # B, shape (m, m)
+    drag: NDArray[np.float64]  # β of each drag, shape (d,)
+    paths: NDArray[np.float64]  # displacement in the direction of each drag by a unit of each motion, shape (d, m)
 
     def impedance(self, omega: complex) -> NDArray[np.complex128]:
         """K − iωB, shape (m, m), without drag."""

@@ -7,17 +7,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Section:
-    """A uniform part of a beam, per metre of width.
+    """A uniform part of a beam, per metre of width."""
 
-    Attributes:
-        length: its length, m.
-        flexural_rigidity: EI, N·m.
-        mass_per_length: m, kg/m².
-    """
-
-    length: float
-    flexural_rigidity: float
-    mass_per_length: float
+    length: float  # its length, m
+    flexural_rigidity: float  # EI, N·m
+    mass_per_length: float  # m, kg/m²
 
     def stiffness(self, wavenumber: float) -> float:
         """EI k⁴ of waves e^{ikx} along it."""
@@ -26,13 +20,9 @@ class Section:
 
 @dataclass(frozen=True, kw_only=True)
 class StretchedSection(Section):
-    """A part under tension.
+    """A part under tension."""
 
-    Attributes:
-        tension: T per metre of width, N/m.
-    """
-
-    tension: float
+    tension: float  # T per metre of width, N/m
 
     def stiffness(self, wavenumber: float) -> float:
         """EI k⁴ + T k² of waves e^{ikx} along it."""
@@ -41,12 +31,7 @@ class StretchedSection(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class Joint:
-    """A place at which the slope may jump: k (w′(x+) − w′(x−)) = EI w″(x).
+    """A place at which the slope may jump: k (w′(x+) − w′(x−)) = EI w″(x)."""
 
-    Attributes:
-        at: distance from the beam's left end, m.
-        rotational_stiffness: k per metre of width, N·m/rad; 0 is a hinge.
-    """
-
-    at: float
-    rotational_stiffness: float
+    at: float  # distance from the beam's left end, m
+    rotational_stiffness: float  # k per metre of width, N·m/rad; 0 is a hinge

@@ -14,8 +14,7 @@ import numpy as np
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level
 from hydroelastic.physics.scales import Scales
 
 SAME_PLACE = 1e-9
@@ -30,25 +29,17 @@ _KINK, _STEP = 2.0, 3.0
 class Beam(Body):
     """A beam without draught; its sections are welded to each other where there is no joint.
 
-    Attributes:
-        sections: from left to right; one of a uniform beam.
-        joints: from left to right.
-        start: x of its left end, m.
-        level: at which it floats.
-        hydrostatic: whether the hydrostatic restoring Δρ g w acts on it.
-        ends: free (no moment, no shear force), or guided (no slope, no shear force).
-
     Raises:
         ValueError: if a number is not positive and finite, or a joint lies at an end, outside, or upon another.
     """
 
     is_elastic = True
-    sections: tuple[Section, ...]
-    joints: tuple[Joint, ...] = ()
-    start: float = 0.0
-    level: Level = "surface"
-    hydrostatic: bool = True
-    ends: Literal["free", "guided"] = "free"
+    sections: tuple[Section, ...]  # from left to right; one of a uniform beam
+    joints: tuple[Joint, ...] = ()  # from left to right
+    start: float = 0.0  # x of its left end, m
+    level: Level = "surface"  # at which it floats
+    hydrostatic: bool = True  # whether the hydrostatic restoring Δρ g w acts on it
+    ends: Literal["free", "guided"] = "free"  # free (no moment, no shear force), or guided (no slope, no shear force)
 
     def __post_init__(self) -> None:
         values = (value for part in self.sections for value in vars(part).values())

@@ -6,8 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar, Self
 
-from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:

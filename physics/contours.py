@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 Array: TypeAlias = NDArray[np.floating[Any]]
 Curve: TypeAlias = Callable[[Array], Array]
@@ -30,23 +31,14 @@ _STEPS = 64
 
 @dataclass(frozen=True, kw_only=True)
 class Arc:
-    """A smooth directed piece of a curve, x(t) with 0 ≤ t ≤ 1.
+    """A smooth directed piece of a curve, x(t) with 0 ≤ t ≤ 1."""
 
-    Attributes:
-        curve: t of shape (n,) to points of shape (n, 2), smooth on the whole of [0, 1] but at the knots.
-        velocity: t of shape (n,) to dx/dt of shape (n, 2).
-        start: the exact point at t = 0, shared with the arc before.
-        end: the exact point at t = 1, shared with the arc after.
-        straight: whether it is a straight segment passed at constant speed.
-        knots: values of t between 0 and 1 where higher derivatives jump, as those of splines do.
-    """
-
-    curve: Curve
-    velocity: Curve
-    start: Point
-    end: Point
-    straight: bool = False
-    knots: tuple[float, ...] = ()
+    curve: Curve  # t of shape (n,) to points of shape (n, 2), smooth on the whole of [0, 1] but at the knots
+    velocity: Curve  # t of shape (n,) to dx/dt of shape (n, 2)
+    start: Point  # the exact point at t = 0, shared with the arc before
+    end: Point  # the exact point at t = 1, shared with the arc after
+    straight: bool = False  # whether it is a straight segment passed at constant speed
+    knots: tuple[float, ...] = ()  # values of t between 0 and 1 where higher derivatives jump, as those of splines do
 
     def point(self, t: Array) -> Array:
         """Return the points at t of shape (n,), as an array of shape (n, 2); the ends are exact."""
@@ -123,7 +115,6 @@ def root(value: Callable[[float], float], first: float, last: float) -> float:
     """Return where a function of one variable changes its sign, to rounding of the interval."""
     # Next to a root at 0 the function's own rounding would keep a merely relative tolerance from being met.
     tolerance = 1e-17 * (last - first)
-    from scipy.optimize import brentq  # slow to import, so only when used
 
     return float(brentq(value, first, last, xtol=tolerance, rtol=4.0 * float(np.finfo(float).eps), maxiter=1000))
 
@@ -183,17 +174,11 @@ def turn_between(before: Arc, after: Arc) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class AreaMoments:
-    """Integrals over a plane region.
+    """Integrals over a plane region."""
 
-    Attributes:
-        area: ∫dA.
-        first: ∫x dA and ∫y dA.
-        second: ∫x² dA and ∫y² dA.
-    """
-
-    area: float
-    first: Point
-    second: Point
+    area: float  # ∫dA
+    first: Point  # ∫x dA and ∫y dA
+    second: Point  # ∫x² dA and ∫y² dA
 
     @property
     def centroid(self) -> Point:
@@ -209,13 +194,9 @@ class AreaMoments:
 
 @dataclass(frozen=True)
 class Contour:
-    """A closed contour that runs counterclockwise about a body: the end of each arc is the start of the next.
+    """A closed contour that runs counterclockwise about a body: the end of each arc is the start of the next."""
 
-    Attributes:
-        arcs: the arcs in order; corners lie between arcs only.
-    """
-
-    arcs: tuple[Arc, ...]
+    arcs: tuple[Arc, ...]  # the arcs in order; corners lie between arcs only
 
     def moved(self, shift: Point) -> Contour:
         """Return the contour displaced by a vector."""
@@ -317,7 +298,6 @@ def _stops(arc: Arc, level: float, near: float) -> list[_Stop]:
 
 
 def _by_side(arc: Arc, stops: list[_Stop], level: float) -> Iterator[tuple[int, Arc]]:
-    """The pieces of an arc between the stops on the level, each with its side."""
     heights = [point[1] - level for _, point in stops]
     cuts = [0, *(n for n in range(1, len(stops) - 1) if heights[n] == 0.0), len(stops) - 1]
     for begin, end in pairwise(cuts):

@@ -10,30 +10,22 @@ from numpy.typing import NDArray
 
 from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof, Turn
+from hydroelastic.physics.dofs import PLACES, Dof, Level, Motion, Turn
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import Hydrostatics
-from hydroelastic.physics.motions import PLACES, Level, Motion
 from hydroelastic.physics.scales import Scales
 
 
 @dataclass(frozen=True, kw_only=True)
 class RigidFloat(Body):
-    """A float at rest, in the frame of the tank.
+    """A float at rest, in the frame of the tank."""
 
-    Attributes:
-        hull: its contour in the liquids.
-        hydrostatics: where it floats, its inertia and stiffness.
-        level: at which it floats.
-        motions: its free motions, in the order of `PLACES`.
-        springs: stiffness of springs to the ground for heave, sway and roll about the centre of mass, in closed tanks:
-            N/m², N/m and N, symmetric; empty without any.
-    """
-
-    hull: Hull = field()
-    hydrostatics: Hydrostatics
-    level: Level
-    motions: tuple[Motion, ...]
+    hull: Hull = field()  # its contour in the liquids
+    hydrostatics: Hydrostatics  # where it floats, its inertia and stiffness
+    level: Level  # at which it floats
+    motions: tuple[Motion, ...]  # its free motions, in the order of `PLACES`
+    # stiffness of springs to the ground for heave, sway and roll about the centre of mass, in closed tanks: N/m², N/m
+    # and N, symmetric; empty without any
     springs: Matrix | tuple[()] = ()
 
     @property
@@ -140,7 +132,6 @@ class RigidFloat(Body):
         Of a solid these are the displacements in its plane θ = 0.
 
         Args:
-            motion: which.
             points: shape (2, n).
 
         Returns:

@@ -26,17 +26,11 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, kw_only=True)
 class Geometry:
-    """Geometry of a plane problem.
+    """Geometry of a plane problem."""
 
-    Attributes:
-        kind: what the plane stands for.
-        order: azimuthal order n of a solid of revolution, or number j of half waves across an extruded section.
-        width: B of an extruded section, in the unit of the plane's coordinates.
-    """
-
-    kind: Literal["plane", "revolved", "extruded"] = "plane"
-    order: int = 0
-    width: float = 1.0
+    kind: Literal["plane", "revolved", "extruded"] = "plane"  # what the plane stands for
+    order: int = 0  # azimuthal order n of a solid of revolution, or number j of half waves across an extruded section
+    width: float = 1.0  # B of an extruded section, in the unit of the plane's coordinates
 
     @property
     def is_revolved(self) -> bool:

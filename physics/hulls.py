@@ -17,25 +17,15 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Hull:
-    """A contour at rest, in the frame of the tank.
+    """A contour at rest, in the frame of the tank."""
 
-    Attributes:
-        contour: of the section.
-        profile: its half width about the reference level; of a symmetric section.
-        is_thin: whether its boundary conditions are imposed on its middle line.
-        height: ordinate of the still level.
-        reference_level: ordinate of the shape's reference level.
-        wet_above: whether there is liquid above the still level.
-        waterplane: x of its two contact points with the still level, the same for a thin one.
-    """
-
-    contour: Contour
-    profile: Profile | None
-    is_thin: bool
-    height: float
-    reference_level: float
-    wet_above: bool
-    waterplane: tuple[float, float]
+    contour: Contour  # of the section
+    profile: Profile | None  # its half width about the reference level; of a symmetric section
+    is_thin: bool  # whether its boundary conditions are imposed on its middle line
+    height: float  # ordinate of the still level
+    reference_level: float  # ordinate of the shape's reference level
+    wet_above: bool  # whether there is liquid above the still level
+    waterplane: tuple[float, float]  # x of its two contact points with the still level, the same for a thin one
 
     def moved(self, shift: float) -> Hull:
         """Return the same hull further to the right, m."""

@@ -29,36 +29,21 @@ class Hydrostatics:
 
     Points lie in the frame of the tank: x from the left wall, y from the still interface, or from the still surface
     of one liquid. Heave is counted upwards, roll anticlockwise about the centre of mass G.
-
-    Attributes:
-        mass: m, kg/m.
-        displaced_mass: Σ ρⱼ Aⱼ, kg/m: the same without a vertical force.
-        level: ordinate of the still level at which it floats, m.
-        reference_level: ordinate of the shape's reference level, m.
-        areas: of the section below and above the level, m²; volumes of a solid.
-        centroids: of these parts, the centres of buoyancy, m.
-        waterplane: x of the left and of the right contact point, m.
-        centre_of_mass: G, m.
-        radius_of_gyration: about G, m.
-        heave_stiffness: c33 = Δρ g B, N/m², with the width, or area, B of the waterplane.
-        coupling_stiffness: c35 = c53 = Δρ g ∫(x − x_G) dx over the waterplane, N/m.
-        roll_stiffness: c55 = Δρ g ∫(x − x_G)² dx + g Σ ρⱼ Aⱼ (y_Bⱼ − y_G), N.
-        free_roll_stiffness: c55 − c35²/c33, the stiffness of roll with free heave, N.
     """
 
-    mass: float
-    displaced_mass: float
-    level: float
-    reference_level: float
-    areas: tuple[float, float]
-    centroids: tuple[Point, Point]
-    waterplane: tuple[float, float]
-    centre_of_mass: Point
-    radius_of_gyration: float
-    heave_stiffness: float
-    coupling_stiffness: float
-    roll_stiffness: float
-    free_roll_stiffness: float
+    mass: float  # m, kg/m
+    displaced_mass: float  # Σ ρⱼ Aⱼ, kg/m: the same without a vertical force
+    level: float  # ordinate of the still level at which it floats, m
+    reference_level: float  # ordinate of the shape's reference level, m
+    areas: tuple[float, float]  # of the section below and above the level, m²; volumes of a solid
+    centroids: tuple[Point, Point]  # of these parts, the centres of buoyancy, m
+    waterplane: tuple[float, float]  # x of the left and of the right contact point, m
+    centre_of_mass: Point  # G, m
+    radius_of_gyration: float  # about G, m
+    heave_stiffness: float  # c33 = Δρ g B, N/m², with the width, or area, B of the waterplane
+    coupling_stiffness: float  # c35 = c53 = Δρ g ∫(x − x_G) dx over the waterplane, N/m
+    roll_stiffness: float  # c55 = Δρ g ∫(x − x_G)² dx + g Σ ρⱼ Aⱼ (y_Bⱼ − y_G), N
+    free_roll_stiffness: float  # c55 − c35²/c33, the stiffness of roll with free heave, N
 
     def moved(self, shift: Point) -> Hydrostatics:
         """Return the same float elsewhere."""

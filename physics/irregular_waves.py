@@ -12,6 +12,11 @@ all and through every other sample, half of which is told), from the waves beyon
 (with T as at the end, whose magnitude falls beyond) and from the transfer functions.
 
 Source: M. K. Ochi, Ocean Waves (1998); M. S. Longuet-Higgins, J. Mar. Res. 11 (1952) 245.
+
+Irregular waves as a sum of regular ones of random phases.
+
+The frequencies are the middles, by energy, of N parts of the spectrum of equal energy, so that all have the amplitude
+√(2m₀/N), and the sum has the variance m₀ of the spectrum within its band and no period in which it repeats.
 """
 
 from __future__ import annotations
@@ -33,28 +38,21 @@ _POINTS = 6
 # Part of the difference of splines that is told as the error: where the finer one resolves a resonance, a fifteenth is.
 _SHARE = 0.5
 
+# Points of the integral of the spectrum over the frequency.
+_FREQUENCIES = 20001
+
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics:
-    """Statistics of q responses. Each is of shape (q,); units are those of the responses, and s.
+    """Statistics of q responses. Each is of shape (q,); units are those of the responses, and s."""
 
-    Attributes:
-        moments: m₀, m₁, m₂, shape (3, q).
-        significant_amplitude: mean of the highest third of the amplitudes.
-        zero_crossing_period: mean time between upward crossings of zero, s; NaN where nothing moves.
-        largest_amplitude: most probable largest amplitude in the duration.
-        sampling_error: relative error of the significant amplitude by the sampling of transfer functions.
-        truncation_error: by the waves beyond both ends of the frequencies.
-        transfer_error: by the errors of the transfer functions.
-    """
-
-    moments: Floats
-    significant_amplitude: Floats
-    zero_crossing_period: Floats
-    largest_amplitude: Floats
-    sampling_error: Floats
-    truncation_error: Floats
-    transfer_error: Floats
+    moments: Floats  # m₀, m₁, m₂, shape (3, q)
+    significant_amplitude: Floats  # mean of the highest third of the amplitudes
+    zero_crossing_period: Floats  # mean time between upward crossings of zero, s; NaN where nothing moves
+    largest_amplitude: Floats  # most probable largest amplitude in the duration
+    sampling_error: Floats  # relative error of the significant amplitude by the sampling of transfer functions
+    truncation_error: Floats  # by the waves beyond both ends of the frequencies
+    transfer_error: Floats  # by the errors of the transfer functions
 
     @property
     def relative_error(self) -> Floats:
@@ -69,7 +67,6 @@ def moments(
     """Return ∫ |T|² S ωⁿ dω between the first and the last frequency, shape (orders, q).
 
     Args:
-        spectrum: of the waves.
         omegas: ascending, at least four, rad/s, shape (n,).
         transfer: T at these, shape (n, q).
         orders: n.
@@ -95,7 +92,6 @@ def statistics(
     """Return the statistics of linear responses.
 
     Args:
-        spectrum: of the waves.
         omegas: frequencies, ascending, at least eight, rad/s, shape (n,).
         transfer: responses per unit elevation, shape (n, q).
         errors: their absolute errors, shape (n, q).
@@ -131,3 +127,20 @@ def statistics(
         truncation_error=relative(beyond.sum(axis=0)),
         transfer_error=relative(by_transfer[0]),
     )
+
+
+def wave_components(
+    spectrum: WaveSpectrum, count: int, seed: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return frequencies ω, rad/s, amplitudes, m, and phases, rad, of regular waves, each of shape (count,).
+
+    Args:
+        count: N.
+        seed: of NumPy's default generator, which draws the phases; the same gives the same waves.
+    """
+    omega: NDArray[np.float64] = np.linspace(*spectrum.band, _FREQUENCIES, dtype=np.float64)
+    density = spectrum.density(omega)
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(omega))])
+    middles = (np.arange(count) + 0.5) / count * energy[-1]
+    phases = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, count)
+    return np.interp(middles, energy, omega), np.full(count, np.sqrt(2.0 * energy[-1] / count)), phases

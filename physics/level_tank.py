@@ -19,15 +19,10 @@ from hydroelastic.physics.tank import Top
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """A rectangular plan, 0 < x < length, 0 < y < width.
+    """A rectangular plan, 0 < x < length, 0 < y < width."""
 
-    Attributes:
-        length: m.
-        width: m.
-    """
-
-    length: float
-    width: float
+    length: float  # m
+    width: float  # m
 
     @property
     def unit(self) -> float:
@@ -46,15 +41,10 @@ class Box:
 
 @dataclass(frozen=True, kw_only=True)
 class Cylinder:
-    """A circular plan, or a ring about an inner cylinder.
+    """A circular plan, or a ring about an inner cylinder."""
 
-    Attributes:
-        radius: m.
-        inner_radius: m; 0 without an inner cylinder.
-    """
-
-    radius: float
-    inner_radius: float = 0.0
+    radius: float  # m
+    inner_radius: float = 0.0  # m; 0 without an inner cylinder
 
     @property
     def unit(self) -> float:
@@ -87,27 +77,16 @@ class PolygonPlan(Polygon):
 
 @dataclass(frozen=True, kw_only=True)
 class FilePlan:
-    """The still surface of a tank that a file describes.
+    """The still surface of a tank that a file describes."""
 
-    Attributes:
-        file: solid of CAD, the inside of the tank, or mesh of the liquid; in m.
-        fill: height of the still surface above the lowest point, m.
-        length: the larger side of the box around the still surface, m.
-        middle: x and y of the middle of that box, m.
-        area: of the still surface, m².
-        size: both sides of that box, along x and y, m.
-        baffles: area of the thin walls that a mesh declares, m².
-        metres: the unit of the other lengths, m.
-    """
-
-    file: Path
-    fill: float
-    length: float
-    middle: Point
-    area: float
-    size: Point = (0.0, 0.0)
-    baffles: float = 0.0
-    metres: float = 1.0
+    file: Path  # solid of CAD, the inside of the tank, or mesh of the liquid; in m
+    fill: float  # height of the still surface above the lowest point, m
+    length: float  # the larger side of the box around the still surface, m
+    middle: Point  # x and y of the middle of that box, m
+    area: float  # of the still surface, m²
+    size: Point = (0.0, 0.0)  # both sides of that box, along x and y, m
+    baffles: float = 0.0  # area of the thin walls that a mesh declares, m²
+    metres: float = 1.0  # the unit of the other lengths, m
 
     @property
     def unit(self) -> float:
@@ -141,23 +120,14 @@ Plan: TypeAlias = Box | Cylinder | PolygonPlan | FilePlan
 
 @dataclass(frozen=True, kw_only=True)
 class LevelTank:
-    """One liquid in an upright tank with a level bed, with plates on its surface; in SI units, or in those of `scaled`.
+    """One liquid in an upright tank with a level bed, with plates on its surface; in SI units or those of `scaled`."""
 
-    Attributes:
-        plan: the inside of its walls.
-        depth: H, m.
-        density: ρ, kg/m³.
-        gravity: g, m/s².
-        top: boundary condition beside the plates.
-        plates: without overlap.
-    """
-
-    plan: Plan
-    depth: float
-    density: float
-    gravity: float
-    top: Top = "free"
-    plates: tuple[Plate, ...] = ()
+    plan: Plan  # the inside of its walls
+    depth: float  # H, m
+    density: float  # ρ, kg/m³
+    gravity: float  # g, m/s²
+    top: Top = "free"  # boundary condition beside the plates
+    plates: tuple[Plate, ...] = ()  # without overlap
 
     @property
     def units(self) -> Scales:

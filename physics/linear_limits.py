@@ -24,17 +24,11 @@ SMALL_ANGLE = pi / 6.0
 
 @dataclass(frozen=True, kw_only=True)
 class LinearLimits:
-    """Motions of a float up to which linear theory can hold.
+    """Motions of a float up to which linear theory can hold."""
 
-    Attributes:
-        heave: the smaller of draught and freeboard, m.
-        reached: which of them that is.
-        roll: angle of roll or pitch at which its deck edge dips or its bottom emerges, rad; `SMALL_ANGLE` if that is
-            smaller.
-    """
-
-    heave: float
-    reached: Literal["draught", "freeboard"]
+    heave: float  # the smaller of draught and freeboard, m
+    reached: Literal["draught", "freeboard"]  # which of them that is
+    # angle of roll or pitch at which its deck edge dips or its bottom emerges, rad; `SMALL_ANGLE` if that is smaller
     roll: float
 
 

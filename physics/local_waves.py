@@ -21,21 +21,13 @@ _TINY = 1e-300
 
 @dataclass(frozen=True, kw_only=True)
 class LevelPiece:
-    """A piece of a still level that moves, in units of the tank.
-
-    Attributes:
-        length: its length.
-        beam: the section of a beam that floats there; ``None`` is a surface of the liquids.
-        jump: ρ below less ρ above it, the hydrostatic restoring.
-        restored: whether the hydrostatic restoring acts on the beam too.
-        layers: density and depth of each adjoining layer.
-    """
+    """A piece of a still level that moves, in units of the tank."""
 
     length: float
-    beam: Section | None
-    jump: float
-    restored: bool
-    layers: tuple[tuple[float, float], ...]
+    beam: Section | None  # the section of a beam that floats there; ``None`` is a surface of the liquids
+    jump: float  # ρ below less ρ above it, the hydrostatic restoring
+    restored: bool  # whether the hydrostatic restoring acts on the beam too
+    layers: tuple[tuple[float, float], ...]  # density and depth of each adjoining layer
 
     @property
     def dispersion(self) -> tuple[object, ...]:

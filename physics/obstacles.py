@@ -11,19 +11,12 @@ from hydroelastic.physics.plate import Disc, Point, Rectangle, scaled_point
 
 @dataclass(frozen=True, kw_only=True)
 class VerticalBaffle:
-    """A vertical rectangle; what lies outside of the liquid is left out.
+    """A vertical rectangle; what lies outside of the liquid is left out."""
 
-    Attributes:
-        start: x and y of one of its upright sides, m.
-        end: of the other one.
-        bottom: z of its lower side, m; −∞ stands on the bed.
-        top: z of its upper side, m; 0 pierces the still surface.
-    """
-
-    start: Point
-    end: Point
-    bottom: float = -inf
-    top: float = 0.0
+    start: Point  # x and y of one of its upright sides, m
+    end: Point  # of the other one
+    bottom: float = -inf  # z of its lower side, m; −∞ stands on the bed
+    top: float = 0.0  # z of its upper side, m; 0 pierces the still surface
 
     def scaled(self, length: float) -> VerticalBaffle:
         """Return it in units of a length."""
@@ -42,15 +35,10 @@ class VerticalBaffle:
 
 @dataclass(frozen=True, kw_only=True)
 class LevelBaffle:
-    """A horizontal plate under the still surface.
+    """A horizontal plate under the still surface."""
 
-    Attributes:
-        outline: rectangle, disc or ring.
-        level: its z, m.
-    """
-
-    outline: Rectangle | Disc
-    level: float
+    outline: Rectangle | Disc  # rectangle, disc or ring
+    level: float  # its z, m
 
     def scaled(self, length: float) -> LevelBaffle:
         """Return it in units of a length."""

@@ -20,15 +20,10 @@ Point: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Rectangle:
-    """A rectangle with sides along x and y.
+    """A rectangle with sides along x and y."""
 
-    Attributes:
-        position: x and y of its centre, m.
-        size: its lengths along x and along y, m.
-    """
-
-    position: Point
-    size: Point
+    position: Point  # x and y of its centre, m
+    size: Point  # its lengths along x and along y, m
 
     @property
     def area(self) -> float:
@@ -55,17 +50,11 @@ class Rectangle:
 
 @dataclass(frozen=True, kw_only=True)
 class Strip:
-    """A strip over the whole width of a box; its side edges slide along the walls.
+    """A strip over the whole width of a box; its side edges slide along the walls."""
 
-    Attributes:
-        start: x of its left edge, m.
-        length: its length along x, m.
-        width: that of the box, m.
-    """
-
-    start: float
-    length: float
-    width: float
+    start: float  # x of its left edge, m
+    length: float  # its length along x, m
+    width: float  # that of the box, m
 
     @property
     def end(self) -> float:
@@ -94,17 +83,11 @@ class Strip:
 
 @dataclass(frozen=True, kw_only=True)
 class Disc:
-    """A disc, or a ring.
+    """A disc, or a ring."""
 
-    Attributes:
-        radius: outer radius, m.
-        position: x and y of its centre, m.
-        inner_radius: that of a ring, m; 0 of a disc.
-    """
-
-    radius: float
-    position: Point = (0.0, 0.0)
-    inner_radius: float = 0.0
+    radius: float  # outer radius, m
+    position: Point = (0.0, 0.0)  # x and y of its centre, m
+    inner_radius: float = 0.0  # that of a ring, m; 0 of a disc
 
     @property
     def area(self) -> float:
@@ -128,13 +111,9 @@ class Disc:
 
 @dataclass(frozen=True, kw_only=True)
 class Polygon:
-    """A polygon.
+    """A polygon."""
 
-    Attributes:
-        points: its corners in order, without the first one repeated, m.
-    """
-
-    points: tuple[Point, ...]
+    points: tuple[Point, ...]  # its corners in order, without the first one repeated, m
 
     @property
     def area(self) -> float:
@@ -185,26 +164,18 @@ def bounds_of(outline: Outline) -> Bounds:
 class Plate:
     """A uniform Kirchhoff plate: D Δ²w + m ẅ + s ρ g w = pressure of the liquid.
 
-    Attributes:
-        outline: what it covers.
-        flexural_rigidity: D, N·m; infinite of a rigid plate.
-        poisson_ratio: ν.
-        mass_per_area: m, kg/m².
-        hydrostatic: whether the hydrostatic restoring ρ g w acts on it.
-        edge: what holds the edges that lie on walls; all others are free. The side edges of a strip always slide.
-        slats: whether a strip consists of beams side by side, without stiffness across: a(w, w) = ∫w_xx².
-
     Raises:
         ValueError: if the rigidity is not positive, the mass negative or not finite, or ν not in (−1, 1/2].
     """
 
-    outline: Outline
-    flexural_rigidity: float
-    mass_per_area: float
+    outline: Outline  # what it covers
+    flexural_rigidity: float  # D, N·m; infinite of a rigid plate
+    mass_per_area: float  # m, kg/m²
     poisson_ratio: float = 0.3
-    hydrostatic: bool = True
+    hydrostatic: bool = True  # whether the hydrostatic restoring ρ g w acts on it
+    # what holds the edges that lie on walls; all others are free. The side edges of a strip always slide.
     edge: Edge = "free"
-    slats: bool = False
+    slats: bool = False  # whether a strip consists of beams side by side, without stiffness across: a(w, w) = ∫w_xx²
 
     def __post_init__(self) -> None:
         if not (self.flexural_rigidity > 0.0 and isfinite(self.mass_per_area) and self.mass_per_area >= 0.0):

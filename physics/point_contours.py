@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import inf, radians
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from hydroelastic.physics.contours import Arc, Array, Contour, Point, straight_arc
-
-if TYPE_CHECKING:
-    from scipy.interpolate import CubicSpline
 
 STRAIGHT = 1e-4
 """Where the line from point to point turns by a smaller angle, in radians, it goes straight on."""
@@ -110,8 +108,6 @@ def _point(values: Array) -> Point:
 
 
 def _spline(points: Array, ends: Any) -> Arc:
-    from scipy.interpolate import CubicSpline  # slow to import, so only when used
-
     lengths = np.hypot(*np.diff(points, axis=0).T)
     reached = np.concatenate([[0.0], np.cumsum(lengths)])
     spline = CubicSpline(reached, points, bc_type=ends)

@@ -20,17 +20,13 @@ DEFAULT_TAIL = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class ProfileArc:
-    """A smooth piece of the right side of a section, directed upward.
+    """A smooth piece of the right side of a section, directed upward."""
 
-    Attributes:
-        point: maps t in [0, 1], shape (n,), to points (x, y) in m, shape (n, 2); smooth up to both ends.
-        velocity: its derivative with respect to t, m, of the same shapes, also smooth up to both ends.
-        straight: whether it is a straight segment.
-    """
-
+    # maps t in [0, 1], shape (n,), to points (x, y) in m, shape (n, 2); smooth up to both ends
     point: Callable[[npt.ArrayLike], FloatArray]
+    # its derivative with respect to t, m, of the same shapes, also smooth up to both ends
     velocity: Callable[[npt.ArrayLike], FloatArray]
-    straight: bool
+    straight: bool  # whether it is a straight segment
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,19 +43,14 @@ class Profile:
 
     b contains the small factor α of the thin-float theory: b = α l, h = 1/μ for the exponential.
 
-    Attributes:
-        shape: one of the five.
-        half_width: b, half of the breadth at y = 0, m.
-        half_height: h, m; the decay length 1/μ of the exponential.
-        tail: of the exponential, in [0, 1); 0 is the unbounded shape, which has no outline. 0 for all other shapes.
-
     Raises:
         ValueError: on construction, if a quantity is out of its range.
     """
 
-    shape: FloatShape
-    half_width: float
-    half_height: float
+    shape: FloatShape  # one of the five
+    half_width: float  # b, half of the breadth at y = 0, m
+    half_height: float  # h, m; the decay length 1/μ of the exponential
+    # of the exponential, in [0, 1); 0 is the unbounded shape, which has no outline. 0 for all other shapes.
     tail: float = 0.0
 
     def __post_init__(self) -> None:

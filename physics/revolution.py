@@ -23,13 +23,10 @@ from hydroelastic.physics.contours import Arc, AreaMoments, Contour, Point, arc_
 
 @dataclass(frozen=True)
 class SolidOfRevolution:
-    """A solid with a vertical axis at x = 0.
+    """A solid with a vertical axis at x = 0."""
 
-    Attributes:
-        contour: of the whole section of a solid that the axis passes through, symmetric about x = 0; of a ring the
-            contour of its section at x > 0.
-    """
-
+    # of the whole section of a solid that the axis passes through, symmetric about x = 0; of a ring the contour of its
+    # section at x > 0
     contour: Contour
 
     @property

@@ -4,26 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level
 from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
 class ZeroStiffnessMotion:
-    """A rigid motion without stiffness.
+    """A rigid motion without stiffness."""
 
-    Attributes:
-        body: index among the bodies.
-        name: name of the motion.
-        level: where the body floats.
-        displaces: whether it displaces a net volume, which another part of the level must take up.
-    """
-
-    body: int
-    name: Dof
-    level: Level
-    displaces: bool
+    body: int  # index among the bodies
+    name: Dof  # name of the motion
+    level: Level  # where the body floats
+    displaces: bool  # whether it displaces a net volume, which another part of the level must take up
 
 
 def zero_stiffness_motions(tank: Tank) -> tuple[ZeroStiffnessMotion, ...]:

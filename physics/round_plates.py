@@ -8,8 +8,7 @@ from math import inf, isfinite
 
 from hydroelastic.physics.beam_parts import Section, StretchedSection
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof, Turn
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Dof, Level, Turn
 from hydroelastic.physics.scales import Scales
 
 LOWEST_BENT = 2
@@ -20,33 +19,21 @@ LOWEST_BENT = 2
 class RoundPlate(Body):
     """A uniform Kirchhoff plate or membrane with free edges: D Δ²w − T Δw + m ẅ + s ρ g w = pressure of the liquid.
 
-    Attributes:
-        radius: a, outer radius, m.
-        inner_radius: that of a ring, m; 0 of a disc.
-        flexural_rigidity: D, N·m; 0 of a membrane, infinite of a rigid plate.
-        mass_per_area: m, kg/m².
-        poisson_ratio: ν.
-        tension: T, N/m, by horizontal forces at the edges: it resists pitch, too.
-        thickness: h, m, for strain and stress at its faces; ``None`` if it is not known.
-        hydrostatic: whether the hydrostatic restoring Δρ g w acts on it.
-        level: at which it floats.
-        order: azimuthal order n of its shapes W(r) cos nθ; ``None`` for all.
-
     Raises:
         ValueError: if a number is not in its range, or neither bending nor tension resists a deflection.
     """
 
     is_elastic = True
-    radius: float
-    inner_radius: float = 0.0
-    flexural_rigidity: float
-    mass_per_area: float
+    radius: float  # a, outer radius, m
+    inner_radius: float = 0.0  # that of a ring, m; 0 of a disc
+    flexural_rigidity: float  # D, N·m; 0 of a membrane, infinite of a rigid plate
+    mass_per_area: float  # m, kg/m²
     poisson_ratio: float = 0.3
-    tension: float = 0.0
-    thickness: float | None = None
-    hydrostatic: bool = True
-    level: Level = "surface"
-    order: int | None = None
+    tension: float = 0.0  # T, N/m, by horizontal forces at the edges: it resists pitch, too
+    thickness: float | None = None  # h, m, for strain and stress at its faces; ``None`` if it is not known
+    hydrostatic: bool = True  # whether the hydrostatic restoring Δρ g w acts on it
+    level: Level = "surface"  # at which it floats
+    order: int | None = None  # azimuthal order n of its shapes W(r) cos nθ; ``None`` for all
 
     def __post_init__(self) -> None:
         if not (0.0 <= self.inner_radius < self.radius < inf and isfinite(self.mass_per_area + self.tension)):

@@ -8,19 +8,12 @@ from math import pi, sqrt
 
 @dataclass(frozen=True, kw_only=True)
 class Scales:
-    """Units of the dimensionless tank; everything is per metre of width, or whole.
+    """Units of the dimensionless tank; everything is per metre of width, or whole."""
 
-    Attributes:
-        length: L, m.
-        density: ρ, kg/m³.
-        gravity: g, m/s².
-        dimensions: 2 where masses and forces are those of a metre of width, 3 where they are whole.
-    """
-
-    length: float
-    density: float
-    gravity: float
-    dimensions: int = 2
+    length: float  # L, m
+    density: float  # ρ, kg/m³
+    gravity: float  # g, m/s²
+    dimensions: int = 2  # 2 where masses and forces are those of a metre of width, 3 where they are whole
 
     @property
     def volume(self) -> float:

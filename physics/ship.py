@@ -10,18 +10,13 @@ from dataclasses import dataclass
 class Ship:
     """Parameters of the roll of a ship.
 
-    Attributes:
-        natural_frequency: k, rad/s, without damping.
-        damping: n, 1/s, from 0; critical where n = k.
-        quadratic_damping: d, 1/rad, from 0.
-
     Raises:
         ValueError: if k is not finite and positive, or n or d not finite and from 0.
     """
 
-    natural_frequency: float
-    damping: float = 0.0
-    quadratic_damping: float = 0.0
+    natural_frequency: float  # k, rad/s, without damping
+    damping: float = 0.0  # n, 1/s, from 0; critical where n = k
+    quadratic_damping: float = 0.0  # d, 1/rad, from 0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.natural_frequency) and self.natural_frequency > 0):

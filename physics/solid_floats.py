@@ -35,29 +35,19 @@ SolidFloatShape: TypeAlias = Literal["cylinder", "sphere", "box", "revolved", "h
 
 @dataclass(frozen=True, kw_only=True)
 class SolidFloat:
-    """A rigid solid that floats, upright at rest, by Archimedes' principle.
+    """A rigid solid that floats, upright at rest, by Archimedes' principle."""
 
-    Attributes:
-        shape: an upright cylinder, a sphere, a box with sides along x and y, a revolved outline, or a hull of a file.
-        size: largest extents along x and y of its wetted part, m.
-        draught: depth of its lowest point, m.
-        position: x and y of the vertical axis through its centre of mass, m.
-        centre_of_gravity: z_G, m.
-        gyration: radii of gyration about axes along x, y and z through the centre of mass, m.
-        motions: those that are free.
-        outline: corners [r, z] of a revolved outline from the axis back to it, z from the still level, m.
-        hull: the wetted part of a hull of a file.
-    """
-
+    # an upright cylinder, a sphere, a box with sides along x and y, a revolved outline, or a hull of a file
     shape: SolidFloatShape
-    size: Point
-    draught: float
-    position: Point
-    centre_of_gravity: float
-    gyration: tuple[float, float, float]
-    motions: tuple[RigidMotion, ...]
+    size: Point  # largest extents along x and y of its wetted part, m
+    draught: float  # depth of its lowest point, m
+    position: Point  # x and y of the vertical axis through its centre of mass, m
+    centre_of_gravity: float  # z_G, m
+    gyration: tuple[float, float, float]  # radii of gyration about axes along x, y and z through the centre of mass, m
+    motions: tuple[RigidMotion, ...]  # those that are free
+    # corners [r, z] of a revolved outline from the axis back to it, z from the still level, m
     outline: tuple[Point, ...] = ()
-    hull: WettedHull | None = None
+    hull: WettedHull | None = None  # the wetted part of a hull of a file
 
     def scaled(self, units: Scales) -> SolidFloat:
         """Return it in units of a length."""

@@ -33,7 +33,6 @@ def solid_of_revolution(
     image in it, but for spheres and outlines.
 
     Args:
-        shape: its shape.
         radius: largest radius, that of all shapes but outlines.
         draught: depth of its lowest point under the reference level; by default the radius.
         inner_radius: of a cylinder with a coaxial hole, a ring.

@@ -38,17 +38,11 @@ class Stream(Protocol):
 
 @dataclass(frozen=True)
 class ScaledStream:
-    """A velocity field in other units of length and time.
+    """A velocity field in other units of length and time."""
 
-    Attributes:
-        stream: in SI units.
-        length: unit of length, m.
-        time: unit of time, s.
-    """
-
-    stream: Stream
-    length: float
-    time: float
+    stream: Stream  # in SI units
+    length: float  # unit of length, m
+    time: float  # unit of time, s
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -112,13 +106,9 @@ def _finite(value: float, name: str) -> None:
 
 @dataclass(frozen=True)
 class UniformStream(_OfHeight):
-    """u = U.
+    """u = U."""
 
-    Attributes:
-        velocity: U, m/s, three components.
-    """
-
-    velocity: Vector
+    velocity: Vector  # U, m/s, three components
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
@@ -138,17 +128,11 @@ class UniformStream(_OfHeight):
 
 @dataclass(frozen=True)
 class ShearedStream(_OfHeight):
-    """u = U + G (z − z₀).
+    """u = U + G (z − z₀)."""
 
-    Attributes:
-        velocity: U, m/s, three components.
-        gradient: G, 1/s, three components.
-        level: z₀, m, where u = U.
-    """
-
-    velocity: Vector
-    gradient: Vector
-    level: float = 0.0
+    velocity: Vector  # U, m/s, three components
+    gradient: Vector  # G, 1/s, three components
+    level: float = 0.0  # z₀, m, where u = U
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
@@ -171,15 +155,10 @@ class ShearedStream(_OfHeight):
 
 @dataclass(frozen=True)
 class VeeringStream(_OfHeight):
-    """u = U (cos κz, sin κz, 0).
+    """u = U (cos κz, sin κz, 0)."""
 
-    Attributes:
-        speed: U, m/s.
-        rate: κ, rad/m.
-    """
-
-    speed: float
-    rate: float
+    speed: float  # U, m/s
+    rate: float  # κ, rad/m
 
     def __post_init__(self) -> None:
         _finite(self.speed, "speed")
@@ -202,19 +181,14 @@ class VeeringStream(_OfHeight):
 
 @dataclass(frozen=True)
 class TabulatedStream(_OfHeight):
-    """u between the rows of a table, constant above the highest and below the lowest.
+    """u between the rows of a table, constant above the highest and below the lowest."""
 
-    Attributes:
-        levels: heights of the rows, m, increasing.
-        velocities: u of each row, m/s, three components each.
-        interpolation: ``"linear"``; ``"monotone"``, each component a cubic between rows that does not overshoot them
-            (SciPy's PCHIP), continuous with its first derivative; ``"spline"``, cubics that are continuous with
-            their first two derivatives between the outer rows, where the second is zero, and which may overshoot.
-            ``"cubic"`` is an older name of ``"monotone"``.
-    """
-
-    levels: tuple[float, ...]
-    velocities: tuple[Vector, ...]
+    levels: tuple[float, ...]  # heights of the rows, m, increasing
+    velocities: tuple[Vector, ...]  # u of each row, m/s, three components each
+    # ``"linear"``; ``"monotone"``, each component a cubic between rows that does not overshoot them (SciPy's PCHIP),
+    # continuous with its first derivative; ``"spline"``, cubics that are continuous with their first two derivatives
+    # between the outer rows, where the second is zero, and which may overshoot. ``"cubic"`` is an older name of
+    # ``"monotone"``.
     interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:

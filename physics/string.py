@@ -18,28 +18,19 @@ from numpy.typing import ArrayLike, NDArray
 class HangingString:
     """A string that hangs from its upper end, the lower end free or with a mass.
 
-    Attributes:
-        length: l, m.
-        linear_density: ρ, kg/m.
-        gravity: g, m/s².
-        resistance: λ at the lower and at the upper end, kg/(m s), linear between; the drag is 2λ ∂U/∂t per unit length.
-        tip_mass: M at the lower end, kg.
-        added_mass: m_a, of the liquid that moves with the string, kg/m.
-        displaced_mass: ρ_d, of the liquid that the string displaces, kg/m.
-        tip_displaced_mass: M_d, of the liquid that the tip mass displaces, kg.
-
     Raises:
         ValueError: if a number is out of range, or the string is not under tension.
     """
 
-    length: float
-    linear_density: float
-    gravity: float = 9.81
+    length: float  # l, m
+    linear_density: float  # ρ, kg/m
+    gravity: float = 9.81  # g, m/s²
+    # λ at the lower and at the upper end, kg/(m s), linear between; the drag is 2λ ∂U/∂t per unit length
     resistance: tuple[float, float] = (0.0, 0.0)
-    tip_mass: float = 0.0
-    added_mass: float = 0.0
-    displaced_mass: float = 0.0
-    tip_displaced_mass: float = 0.0
+    tip_mass: float = 0.0  # M at the lower end, kg
+    added_mass: float = 0.0  # m_a, of the liquid that moves with the string, kg/m
+    displaced_mass: float = 0.0  # ρ_d, of the liquid that the string displaces, kg/m
+    tip_displaced_mass: float = 0.0  # M_d, of the liquid that the tip mass displaces, kg
 
     def __post_init__(self) -> None:
         for name in ("length", "linear_density", "gravity"):

@@ -13,18 +13,14 @@ DERIVATIVES = 4
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Forcing:
-    """f(t) = Σ_n d_n (t − t_j)ⁿ/n! on piece j, plus Re Σ c e^{st} from t = 0.
+    """f(t) = Σ_n d_n (t − t_j)ⁿ/n! on piece j, plus Re Σ c e^{st} from t = 0."""
 
-    Attributes:
-        starts: times t_j at which pieces start, s, rising from 0, shape (pieces,). The last one has no end.
-        derivatives: d_n, m/sⁿ, the limits from the right at the starts, shape (4, pieces).
-        rates: s, 1/s, complex with real part up to 0, shape (exponentials,).
-        weights: c, m, complex, shape (exponentials,).
-    """
-
+    # times t_j at which pieces start, s, rising from 0, shape (pieces,). The last one has no end.
     starts: NDArray[np.float64]
-    derivatives: NDArray[np.float64]
+    derivatives: NDArray[np.float64]  # d_n, m/sⁿ, the limits from the right at the starts, shape (4, pieces)
+    # s, 1/s, complex with real part up to 0, shape (exponentials,)
     rates: NDArray[np.complex128] = field(default_factory=lambda: np.empty(0, dtype=complex))
+    # c, m, complex, shape (exponentials,)
     weights: NDArray[np.complex128] = field(default_factory=lambda: np.empty(0, dtype=complex))
 
     def derivative(self, order: int, times: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -67,13 +67,9 @@ class _Unbounded(_Values):
 
 @dataclass(frozen=True, kw_only=True)
 class Ramp(_Unbounded):
-    """f = V t.
+    """f = V t."""
 
-    Attributes:
-        speed: V, m/s.
-    """
-
-    speed: float
+    speed: float  # V, m/s
 
     @property
     def forcing(self) -> Forcing:
@@ -84,13 +80,9 @@ class Ramp(_Unbounded):
 
 @dataclass(frozen=True, kw_only=True)
 class Step(_Unbounded):
-    """f = Δ from t = 0.
+    """f = Δ from t = 0."""
 
-    Attributes:
-        amplitude: Δ, m.
-    """
-
-    amplitude: float
+    amplitude: float  # Δ, m
 
     @property
     def forcing(self) -> Forcing:
@@ -101,15 +93,10 @@ class Step(_Unbounded):
 
 @dataclass(frozen=True, kw_only=True)
 class Sine(_Unbounded):
-    """f = Δ sin ωt.
+    """f = Δ sin ωt."""
 
-    Attributes:
-        amplitude: Δ, m.
-        omega: ω, 1/s.
-    """
-
-    amplitude: float
-    omega: float
+    amplitude: float  # Δ, m
+    omega: float  # ω, 1/s
 
     @property
     def forcing(self) -> Forcing:
@@ -125,15 +112,10 @@ class Sine(_Unbounded):
 
 @dataclass(frozen=True, kw_only=True)
 class Smooth(_Unbounded):
-    """f = Δ(1 − e^{−βt})².
+    """f = Δ(1 − e^{−βt})²."""
 
-    Attributes:
-        amplitude: Δ, m.
-        rate: β, 1/s, positive.
-    """
-
-    amplitude: float
-    rate: float
+    amplitude: float  # Δ, m
+    rate: float  # β, 1/s, positive
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -154,15 +136,10 @@ class Smooth(_Unbounded):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TabulatedMotion(_Values):
-    """A motion by pieces of polynomials up to the third degree; made by `tabulated` and `sampled`.
+    """A motion by pieces of polynomials up to the third degree; made by `tabulated` and `sampled`."""
 
-    Attributes:
-        forcing: the pieces.
-        end: last time at which the motion is known, s.
-    """
-
-    forcing: Forcing
-    end: float
+    forcing: Forcing  # the pieces
+    end: float  # last time at which the motion is known, s
 
 
 def tabulated(

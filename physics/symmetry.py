@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from hydroelastic.physics.motions import Motion
+from hydroelastic.physics.dofs import Motion
 from hydroelastic.physics.tank import MIDDLE, ROUNDING, Piece, Tank
 
 Parity = Literal["symmetric", "antisymmetric"]

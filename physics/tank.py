@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.dofs import Level
+from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.geometry import PLANE, Geometry
-from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
-    # Contours need SciPy's root finders, whose import is slow, and most tanks have no float.
-    from hydroelastic.physics.floats import RigidFloat
     from hydroelastic.physics.hulls import Hull
 
 Top: TypeAlias = Literal["free", "rigid", "pressure_release"]
@@ -37,17 +36,11 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True, kw_only=True)
 class Layer:
-    """A layer of ideal incompressible liquid.
+    """A layer of ideal incompressible liquid."""
 
-    Attributes:
-        density: kg/m³.
-        floor: ordinate of its lower side, m.
-        depth: m; may be infinite in open water.
-    """
-
-    density: float
-    floor: float
-    depth: float
+    density: float  # kg/m³
+    floor: float  # ordinate of its lower side, m
+    depth: float  # m; may be infinite in open water
 
     @property
     def ceiling(self) -> float:
@@ -57,17 +50,11 @@ class Layer:
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """A piece of a still level from left to right: a body's, or open surface.
+    """A piece of a still level from left to right: a body's, or open surface."""
 
-    Attributes:
-        start: its left end, m.
-        end: its right end, m; that of a thin float is its start.
-        body: index of the body, or ``None``.
-    """
-
-    start: float
-    end: float
-    body: int | None
+    start: float  # its left end, m
+    end: float  # its right end, m; that of a thin float is its start
+    body: int | None  # index of the body, or ``None``
 
     @property
     def length(self) -> float:
@@ -77,23 +64,14 @@ class Piece:
 
 @dataclass(frozen=True, kw_only=True)
 class StillLevel:
-    """The upper side of a layer at rest.
+    """The upper side of a layer at rest."""
 
-    Attributes:
-        height: ordinate y, m or dimensionless as the tank.
-        below: index of the layer below.
-        above: index of the layer above, ``None`` at the top.
-        kind: "interface", or the boundary condition of the top.
-        jump: ρ below less ρ above, kg/m³.
-        pieces: from left to right.
-    """
-
-    height: float
-    below: int
-    above: int | None
-    kind: Literal["interface"] | Top
-    jump: float
-    pieces: tuple[Piece, ...]
+    height: float  # ordinate y, m or dimensionless as the tank
+    below: int  # index of the layer below
+    above: int | None  # index of the layer above, ``None`` at the top
+    kind: Literal["interface"] | Top  # "interface", or the boundary condition of the top
+    jump: float  # ρ below less ρ above, kg/m³
+    pieces: tuple[Piece, ...]  # from left to right
 
     def scaled(self, units: Scales, layers: tuple[Layer, ...]) -> StillLevel:
         """Return the level between layers in other units, in which the tank ends exactly at 1."""
@@ -127,33 +105,20 @@ class StillLevel:
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
-    """Liquids at rest with floating bodies, per metre of width or of revolution; in SI units, or in those of `scaled`.
+    """Liquids at rest with floating bodies, per metre of width or of revolution; in SI units or those of `scaled`."""
 
-    Attributes:
-        length: between the walls, or of the stretch of open water that is of interest, m; of revolution the radius.
-        gravity: g, m/s².
-        is_open: whether waves leave to both sides, instead of being reflected by walls.
-        layers: from the bottom up.
-        levels: the upper sides of the layers, from the bottom up.
-        bodies: beams and floats.
-        start: abscissa of the left wall, or of the left end of that stretch, m.
-        phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
-        attachments: springs and dampers that hold the bodies, in SI units.
-        geometry: what the section stands for; of revolution, x is the distance from the axis.
-        bed: corners (x, y) of the bed from the left to the right wall, m; "sphere" of a tank of revolution that is
-            the part of a sphere under the surface; ``None`` where it is level.
-    """
-
-    length: float
-    gravity: float
-    is_open: bool
-    layers: tuple[Layer, ...]
-    levels: tuple[StillLevel, ...]
-    bodies: tuple[Body, ...]
-    start: float = 0.0
-    phase_at: float = 0.0
-    attachments: tuple[Attachment, ...] = ()
-    geometry: Geometry = PLANE
+    length: float  # between the walls, or of the stretch of open water that is of interest, m; of revolution the radius
+    gravity: float  # g, m/s²
+    is_open: bool  # whether waves leave to both sides, instead of being reflected by walls
+    layers: tuple[Layer, ...]  # from the bottom up
+    levels: tuple[StillLevel, ...]  # the upper sides of the layers, from the bottom up
+    bodies: tuple[Body, ...]  # beams and floats
+    start: float = 0.0  # abscissa of the left wall, or of the left end of that stretch, m
+    phase_at: float = 0.0  # abscissa at which the crest of an incident wave is at t = 0, m
+    attachments: tuple[Attachment, ...] = ()  # springs and dampers that hold the bodies, in SI units
+    geometry: Geometry = PLANE  # what the section stands for; of revolution, x is the distance from the axis
+    # corners (x, y) of the bed from the left to the right wall, m; "sphere" of a tank of revolution that is the part of
+    # a sphere under the surface; ``None`` where it is level
     bed: tuple[tuple[float, float], ...] | Literal["sphere"] | None = None
 
     @cached_property
@@ -247,7 +212,6 @@ class Tank:
         """The rigid floats, for theories of floats alone, by their index among the bodies."""
         if not self.hulls:
             return {}
-        from hydroelastic.physics.floats import RigidFloat
 
         return {index: body for index, body in enumerate(self.bodies) if isinstance(body, RigidFloat)}
 

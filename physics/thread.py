@@ -29,21 +29,14 @@ StretchDrag = Literal["none", "volume"]
 
 @dataclass(frozen=True, kw_only=True)
 class PointLoad:
-    """A body at one point of the thread, or a force on it.
+    """A body at one point of the thread, or a force on it."""
 
-    Attributes:
-        force: dead force on the thread, N, shape (dimension,); zero in space without it.
-        weight: weight in the liquid, N; negative for a buoy.
-        drag: k = ρ C A/2 in the drag k|u − v|(u − v), N·s²/m².
-        mass: M, kg, in all directions.
-        added_mass: mass of the liquid that moves along, kg, in all directions.
-    """
-
+    # dead force on the thread, N, shape (dimension,); zero in space without it
     force: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
-    weight: float = 0.0
-    drag: float = 0.0
-    mass: float = 0.0
-    added_mass: float = 0.0
+    weight: float = 0.0  # weight in the liquid, N; negative for a buoy
+    drag: float = 0.0  # k = ρ C A/2 in the drag k|u − v|(u − v), N·s²/m²
+    mass: float = 0.0  # M, kg, in all directions
+    added_mass: float = 0.0  # mass of the liquid that moves along, kg, in all directions
 
     @property
     def dead_force(self) -> NDArray[np.float64]:
@@ -68,22 +61,15 @@ class PointLoad:
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadEnd:
-    """How an end is held.
+    """How an end is held."""
 
-    Attributes:
-        load: body at the end and force on it; reactions act along the held components.
-        held: which components of the position are prescribed, shape (dimension,).
-        position: position of the end, m, of which the held components are used, shape (dimension,).
-        clamp: unit tangent r_s of a clamped end, dimensionless, shape (dimension,); without it the end is hinged or
-            free. Needs flexural rigidity.
-        taper: dimensionless shape of a free end in a reactive liquid: 0 blunt, 1 tapered to a point.
-    """
-
-    load: PointLoad
-    held: tuple[bool, ...]
-    position: NDArray[np.float64]
+    load: PointLoad  # body at the end and force on it; reactions act along the held components
+    held: tuple[bool, ...]  # which components of the position are prescribed, shape (dimension,)
+    position: NDArray[np.float64]  # position of the end, m, of which the held components are used, shape (dimension,)
+    # unit tangent r_s of a clamped end, dimensionless, shape (dimension,); without it the end is hinged or free. Needs
+    # flexural rigidity.
     clamp: NDArray[np.float64] | None = None
-    taper: float = 0.0
+    taper: float = 0.0  # dimensionless shape of a free end in a reactive liquid: 0 blunt, 1 tapered to a point
 
     @classmethod
     def fixed_at(cls, position: Sequence[float], clamp: Sequence[float] | None = None) -> ThreadEnd:
@@ -116,44 +102,28 @@ class ThreadEnd:
 class Thread:
     """A thread in a steady stream.
 
-    Attributes:
-        dimension: 3 in space, or 2 in a vertical plane (x, z).
-        length: L, m, unstretched.
-        ends: A and B.
-        weight: w, weight per length in the liquid, N/m, downwards positive.
-        axial_rigidity: EA, N; infinite for an inextensible thread.
-        flexural_rigidity: EI, N·m².
-        normal_drag: kn = ρ Cn d/2 in kn|u_n|u_n, N·s²/m³.
-        tangential_drag: kt = ρ π Ct d/2 in kt|u_t|u_t, N·s²/m³.
-        viscous_drag: nv in nv u_n, N·s/m².
-        mass: m per length, kg/m.
-        added_mass: ma per length, across the thread, kg/m.
-        reactive: reaction of the liquid beyond −ma P r_tt.
-        stretch_drag: "volume" multiplies both quadratic drags by √|r_s|, for a diameter at constant volume.
-        stream: u, ``None`` for a liquid at rest.
-        loads: bodies between the ends, by s in m.
-        tension: given tension at end B, N, of a straight inextensible thread between fixed ends, whose length does
-            not determine it.
-
     Raises:
         ValueError: where a number is out of range or shapes do not fit.
     """
 
-    length: float
-    ends: tuple[ThreadEnd, ThreadEnd]
-    dimension: int = 3
-    weight: float = 0.0
-    axial_rigidity: float = inf
-    flexural_rigidity: float = 0.0
-    normal_drag: float = 0.0
-    tangential_drag: float = 0.0
-    viscous_drag: float = 0.0
-    mass: float = 0.0
-    added_mass: float = 0.0
-    reactive: Reactive = "none"
+    length: float  # L, m, unstretched
+    ends: tuple[ThreadEnd, ThreadEnd]  # A and B
+    dimension: int = 3  # 3 in space, or 2 in a vertical plane (x, z)
+    weight: float = 0.0  # w, weight per length in the liquid, N/m, downwards positive
+    axial_rigidity: float = inf  # EA, N; infinite for an inextensible thread
+    flexural_rigidity: float = 0.0  # EI, N·m²
+    normal_drag: float = 0.0  # kn = ρ Cn d/2 in kn|u_n|u_n, N·s²/m³
+    tangential_drag: float = 0.0  # kt = ρ π Ct d/2 in kt|u_t|u_t, N·s²/m³
+    viscous_drag: float = 0.0  # nv in nv u_n, N·s/m²
+    mass: float = 0.0  # m per length, kg/m
+    added_mass: float = 0.0  # ma per length, across the thread, kg/m
+    reactive: Reactive = "none"  # reaction of the liquid beyond −ma P r_tt
+    # "volume" multiplies both quadratic drags by √|r_s|, for a diameter at constant volume
     stretch_drag: StretchDrag = "none"
-    stream: Stream | None = None
-    loads: dict[float, PointLoad] = field(default_factory=dict)
+    stream: Stream | None = None  # u, ``None`` for a liquid at rest
+    loads: dict[float, PointLoad] = field(default_factory=dict)  # bodies between the ends, by s in m
+    # given tension at end B, N, of a straight inextensible thread between fixed ends, whose length does not determine
+    # it
     tension: float | None = None
 
     def __post_init__(self) -> None:

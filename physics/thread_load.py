@@ -16,21 +16,13 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadLoad:
-    """q = −w e_z + kₙ|uₙ|uₙ + kₜ|uₜ|uₜ τ + νₙ uₙ, per unstretched length; uₜ = u·τ, uₙ = u − uₜτ.
+    """q = −w e_z + kₙ|uₙ|uₙ + kₜ|uₜ|uₜ τ + νₙ uₙ, per unstretched length; uₜ = u·τ, uₙ = u − uₜτ."""
 
-    Attributes:
-        weight: w, submerged, N/m; negative if the thread is buoyant.
-        normal_drag: kₙ = ρ Cₙ d/2, N s²/m³.
-        tangential_drag: kₜ = ρ π Cₜ d/2, N s²/m³.
-        viscous_drag: νₙ, N s/m².
-        stream: u; ``None`` for a liquid at rest.
-    """
-
-    weight: float
-    normal_drag: float = 0.0
-    tangential_drag: float = 0.0
-    viscous_drag: float = 0.0
-    stream: Stream | None = None
+    weight: float  # w, submerged, N/m; negative if the thread is buoyant
+    normal_drag: float = 0.0  # kₙ = ρ Cₙ d/2, N s²/m³
+    tangential_drag: float = 0.0  # kₜ = ρ π Cₜ d/2, N s²/m³
+    viscous_drag: float = 0.0  # νₙ, N s/m²
+    stream: Stream | None = None  # u; ``None`` for a liquid at rest
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.weight):

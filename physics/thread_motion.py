@@ -20,22 +20,14 @@ class EndDisplacement:
     """Displacement of an end from its initial position, R(t)(V t + A (sin(ωt + φ) − sin φ) + x(t) − x(0)).
 
     R rises from 0 to 1 with two continuous derivatives, x(t) is a cubic spline through a table.
-
-    Attributes:
-        velocity: V, m/s.
-        amplitude: A, m.
-        omega: ω, rad/s.
-        phase: φ, rad.
-        rise: time in which R rises, s.
-        table: rows of time, s, and x, y, z, m; empty without one.
     """
 
-    velocity: Vector = (0.0, 0.0, 0.0)
-    amplitude: Vector = (0.0, 0.0, 0.0)
-    omega: float = 1.0
-    phase: float = 0.0
-    rise: float = 0.0
-    table: tuple[tuple[float, ...], ...] = ()
+    velocity: Vector = (0.0, 0.0, 0.0)  # V, m/s
+    amplitude: Vector = (0.0, 0.0, 0.0)  # A, m
+    omega: float = 1.0  # ω, rad/s
+    phase: float = 0.0  # φ, rad
+    rise: float = 0.0  # time in which R rises, s
+    table: tuple[tuple[float, ...], ...] = ()  # rows of time, s, and x, y, z, m; empty without one
 
     def __call__(self, time: float) -> FloatArray:
         """Return the displacement, m, shape (3,), at a time, s."""
@@ -65,17 +57,11 @@ def _smooth_rise(time: float, duration: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class VortexShedding:
-    """Vortices that a thread sheds, with the force c|u_n|² sin(2π n ∫|u_n|dt + ψ) across stream and thread.
+    """Vortices that a thread sheds, with the force c|u_n|² sin(2π n ∫|u_n|dt + ψ) across stream and thread."""
 
-    Attributes:
-        lift: c = ρ d C_L/2, kg/m².
-        wave_number: n = St/d, cycles per metre that the liquid passes, 1/m.
-        phase: ψ, rad.
-    """
-
-    lift: float
-    wave_number: float
-    phase: float = 0.0
+    lift: float  # c = ρ d C_L/2, kg/m²
+    wave_number: float  # n = St/d, cycles per metre that the liquid passes, 1/m
+    phase: float = 0.0  # ψ, rad
 
     def __post_init__(self) -> None:
         for name in ("lift", "wave_number", "phase"):

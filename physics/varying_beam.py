@@ -26,15 +26,12 @@ class VaryingBeam(Beam):
 
     The sections hold their lengths, the flexural rigidity as flexible on the whole and the mean mass: enough for what
     only needs to know about how stiff the beam is, such as the choice of a mesh.
-
-    Attributes:
-        rigidity: EI at distances from the left end, N·m per metre of width; at the end of two sections it is asked for
-            a little inside of each.
-        mass: m there, kg/m².
     """
 
+    # EI at distances from the left end, N·m per metre of width; at the end of two sections it is asked for a little
+    # inside of each
     rigidity: AlongBeam
-    mass: AlongBeam
+    mass: AlongBeam  # m there, kg/m²
 
     @property
     def is_uniform(self) -> bool:

@@ -14,13 +14,9 @@ from hydroelastic.physics.solid_floats import SolidFloat
 
 @dataclass(frozen=True, kw_only=True)
 class SlopingBed:
-    """A plane bed, z = −H + s·(x − x₀) with the middle x₀ of the box around the plan.
+    """A plane bed, z = −H + s·(x − x₀) with the middle x₀ of the box around the plan."""
 
-    Attributes:
-        slope: s, rise of the bed per length along x and along y.
-    """
-
-    slope: Point
+    slope: Point  # s, rise of the bed per length along x and along y
 
     def scaled(self, _length: float) -> SlopingBed:
         """Return it in units of a length: slopes have none."""
@@ -29,13 +25,9 @@ class SlopingBed:
 
 @dataclass(frozen=True, kw_only=True)
 class SurveyedBed:
-    """A bed through points, smooth between them; H is the depth over the lowest of them.
+    """A bed through points, smooth between them; H is the depth over the lowest of them."""
 
-    Attributes:
-        points: x, y and height above any level, m.
-    """
-
-    points: tuple[tuple[float, float, float], ...]
+    points: tuple[tuple[float, float, float], ...]  # x, y and height above any level, m
 
     def scaled(self, length: float) -> SurveyedBed:
         """Return it in units of a length."""
@@ -48,15 +40,10 @@ Bed: TypeAlias = SlopingBed | SurveyedBed
 
 @dataclass(frozen=True, kw_only=True)
 class LowerLiquid:
-    """The lower one of two liquids.
+    """The lower one of two liquids."""
 
-    Attributes:
-        density: ρ, kg/m³, more than that of the upper one.
-        depth: its own, m.
-    """
-
-    density: float
-    depth: float
+    density: float  # ρ, kg/m³, more than that of the upper one
+    depth: float  # its own, m
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,20 +51,13 @@ class VolumeTank(LevelTank):
     """One or two liquids in a tank whose volume is meshed; in SI units, or in those of `scaled`.
 
     Depth is that of both liquids together, density that of the upper one.
-
-    Attributes:
-        bed: of an upright tank; ``None`` where it is level, or part of a file.
-        floats: solids with draught; as bodies they come after the plates.
-        columns: outlines of columns from the bed to above the still surface.
-        baffles: thin rigid plates in the liquid.
-        lower: the lower liquid of two.
     """
 
-    bed: Bed | None = None
-    floats: tuple[SolidFloat, ...] = ()
-    columns: tuple[Rectangle | Disc, ...] = ()
-    baffles: tuple[Baffle, ...] = ()
-    lower: LowerLiquid | None = None
+    bed: Bed | None = None  # of an upright tank; ``None`` where it is level, or part of a file
+    floats: tuple[SolidFloat, ...] = ()  # solids with draught; as bodies they come after the plates
+    columns: tuple[Rectangle | Disc, ...] = ()  # outlines of columns from the bed to above the still surface
+    baffles: tuple[Baffle, ...] = ()  # thin rigid plates in the liquid
+    lower: LowerLiquid | None = None  # the lower liquid of two
 
     @property
     def is_level(self) -> bool:

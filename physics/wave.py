@@ -14,16 +14,12 @@ from hydroelastic.physics.arrays import FloatArray
 class WaveTrain:
     """Waves that pass the ship one after another, the first from t = 0; each is one whole sine of the wave slope.
 
-    Attributes:
-        periods: T_i, s, shape (waves,); there may be none.
-        slopes: a_i, largest slope of each wave, rad, shape (waves,), of either sign.
-
     Raises:
         ValueError: on construction, if the shapes differ, a period is not finite and positive, or a slope not finite.
     """
 
-    periods: FloatArray
-    slopes: FloatArray
+    periods: FloatArray  # T_i, s, shape (waves,); there may be none
+    slopes: FloatArray  # a_i, largest slope of each wave, rad, shape (waves,), of either sign
 
     def __post_init__(self) -> None:
         for name in ("periods", "slopes"):

@@ -59,17 +59,11 @@ class WaveSpectrum(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class PeakedSpectrum(WaveSpectrum):
-    """The spectrum of Pierson and Moskowitz, or of JONSWAP.
+    """The spectrum of Pierson and Moskowitz, or of JONSWAP."""
 
-    Attributes:
-        height: significant height Hs, m.
-        period: of the peak, s.
-        enhancement: γ; 1 is Pierson and Moskowitz.
-    """
-
-    height: float
-    period: float
-    enhancement: float = 1.0
+    height: float  # significant height Hs, m
+    period: float  # of the peak, s
+    enhancement: float = 1.0  # γ; 1 is Pierson and Moskowitz
 
     @property
     def peak(self) -> float:
@@ -126,15 +120,10 @@ class PeakedSpectrum(WaveSpectrum):
 
 @dataclass(frozen=True, kw_only=True)
 class TabulatedSpectrum(WaveSpectrum):
-    """A spectrum of given values, linear between them and zero outside.
+    """A spectrum of given values, linear between them and zero outside."""
 
-    Attributes:
-        omega: frequencies, ascending, rad/s.
-        values: S, m² s/rad.
-    """
-
-    omega: tuple[float, ...]
-    values: tuple[float, ...]
+    omega: tuple[float, ...]  # frequencies, ascending, rad/s
+    values: tuple[float, ...]  # S, m² s/rad
 
     @property
     def significant_height(self) -> float:

@@ -23,25 +23,15 @@ from hydroelastic.physics.plate import Point, scaled_point
 
 @dataclass(frozen=True, kw_only=True)
 class Hydrostatics:
-    """What follows from the wetted part of a solid, in powers of m.
+    """What follows from the wetted part of a solid, in powers of m."""
 
-    Attributes:
-        volume: V.
-        buoyancy: z_B.
-        waterplane: A.
-        second: I_x = ∫y² and I_y = ∫x² of the waterplane about the vertical axis through the centre of buoyancy.
-        axis: x and y of that axis, from the origin of the solid.
-        first: ∫x and ∫y of the waterplane about it.
-        product: ∫xy of the waterplane about it.
-    """
-
-    volume: float
-    buoyancy: float
+    volume: float  # V
+    buoyancy: float  # z_B
     waterplane: float
-    second: Point
-    axis: Point = (0.0, 0.0)
-    first: Point = (0.0, 0.0)
-    product: float = 0.0
+    second: Point  # I_x = ∫y² and I_y = ∫x² of the waterplane about the vertical axis through the centre of buoyancy
+    axis: Point = (0.0, 0.0)  # x and y of that axis, from the origin of the solid
+    first: Point = (0.0, 0.0)  # ∫x and ∫y of the waterplane about it
+    product: float = 0.0  # ∫xy of the waterplane about it
 
     def scaled(self, length: float) -> Hydrostatics:
         """Return it in units of a length."""
@@ -84,28 +74,17 @@ def hydrostatics_of_surface(points: FloatArray, areas: FloatArray) -> Hydrostati
 
 @dataclass(frozen=True, kw_only=True)
 class WettedHull:
-    """The wetted part of a hull that a file describes.
+    """The wetted part of a hull that a file describes."""
 
-    Attributes:
-        file: solid of CAD, or triangles (*.stl) of its surface; in m.
-        level: z of the still level in the file, m.
-        low: least x, y and z of the wetted part from the file's origin at the still level, m.
-        high: the largest ones.
-        hydrostatics: of the wetted part, from that origin.
-        symmetric: whether it is known to be its own mirror image, in planes normal to x and to y through the centre of
-            buoyancy.
-        metres: the unit of all lengths but ``level``, m.
-        waterplane_above: area of the waterplane just above horizontal faces in the still level, m²; ``None`` without
-            such a face.
-    """
-
-    file: Path
-    level: float
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    hydrostatics: Hydrostatics
+    file: Path  # solid of CAD, or triangles (*.stl) of its surface; in m
+    level: float  # z of the still level in the file, m
+    low: tuple[float, float, float]  # least x, y and z of the wetted part from the file's origin at the still level, m
+    high: tuple[float, float, float]  # the largest ones
+    hydrostatics: Hydrostatics  # of the wetted part, from that origin
+    # whether it is known to be its own mirror image, in planes normal to x and to y through the centre of buoyancy
     symmetric: tuple[bool, bool]
-    metres: float = 1.0
+    metres: float = 1.0  # the unit of all lengths but ``level``, m
+    # area of the waterplane just above horizontal faces in the still level, m²; ``None`` without such a face
     waterplane_above: float | None = None
 
     @property
@@ -131,15 +110,10 @@ _LEVEL = 1e-7
 
 @dataclass(frozen=True, kw_only=True)
 class Triangles:
-    """A surface of plane triangles.
+    """A surface of plane triangles."""
 
-    Attributes:
-        points: its corners, shape (points, 3).
-        corners: numbers of the corners of each triangle, shape (triangles, 3).
-    """
-
-    points: FloatArray
-    corners: NDArray[np.int64]
+    points: FloatArray  # its corners, shape (points, 3)
+    corners: NDArray[np.int64]  # numbers of the corners of each triangle, shape (triangles, 3)
 
     def below(self, level: float) -> Triangles:
         """Return the part below a level, which becomes z = 0; triangles in that level are left out."""

@@ -320,12 +320,12 @@ def list_scenes() -> None:
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
     "--problem",
-    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread", "basin", "buoys"]),
+    type=click.Choice(["start", "tanks", "sweeps", "circle", "buoys", "string", "thread", "basin"]),
     multiple=True,
     help="Only this one; all by default.",
 )
-@click.option("--quick", is_flag=True, help="One tank, frequency, motion and thread, every third case.")
-@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
+@click.option("--quick", is_flag=True, help="One case of each problem, every third resolution.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 3 by default.")
 @click.option("--no-install", is_flag=True, help="Leave out other codes that are not installed.")
 @click.pass_context
 def bench(
@@ -336,13 +336,11 @@ def bench(
     repeats: int | None,
     no_install: bool,
 ) -> None:
-    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, sweeps beside a loop
-    over NGSolve, a circle in open water beside Capytaine, a hanging string by series and as a field, flexible threads
-    beside MoorPy and MoorDyn, a basin in three dimensions beside NGSolve, heaving buoys beside
-    Capytaine and OpenFLASH.
+    """Measure error against seconds, beside NGSolve, scikit-fem, Capytaine, OpenFLASH, MoorPy and MoorDyn, and what a
+    start costs beside the import of the libraries.
 
-    The others are installed into the cache if they are missing. Writes speed_against_error, sweeps, open_circle,
-    hanging_string, threads, basins and buoys, each as .csv and .md, all but sweeps as .png too.
+    The other codes are installed into the cache if they are missing. Writes a table as .csv, a page as .md and a
+    figure as .png for each problem.
 
     \b
     Example:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.models.plain import plain
+from hydroelastic.scenes.models.scene_model import plain
 from hydroelastic.scenes.number_texts import how_to_write
 
 Document: TypeAlias = dict[str, Any]

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ValidationError
 
 from hydroelastic.scenes import models
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.models.plain import plain
+from hydroelastic.scenes.models.scene_model import plain
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_kinds import is_canal, is_level_tank, is_round_tank
 from hydroelastic.scenes.number_texts import how_to_write_line
@@ -332,7 +332,7 @@ def _model_of(document: Document, label: str) -> type[Scene]:
 
         return RoundTankScene
     if kind == "tank" and is_canal(document):
-        from hydroelastic.scenes.models.canal import CanalScene
+        from hydroelastic.scenes.models.round_tank import CanalScene
 
         return CanalScene
     if kind == "tank" and is_level_tank(document):

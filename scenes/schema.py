@@ -8,9 +8,8 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
-from hydroelastic.scenes.models.canal import CanalScene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.round_tank import RoundTankScene
+from hydroelastic.scenes.models.round_tank import CanalScene, RoundTankScene
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER
 
 SCHEMA_FILE = SHIPPED_FOLDER / "schema.json"

@@ -38,9 +38,6 @@ NOT_RUN = {
     "./hydro lint": OF_CI,
     "./hydro docs": OF_CI,
     "./hydro python docs/scene_reference.py": "writes into the checkout; a test compares what is there",
-    "./hydro python results/start_up_shares.py": "measures for minutes, and writes into the checkout",
-    "./hydro python -m hydroelastic.benchmarks.volume_scaling": "measures for minutes; a test has its parts",
-    "./hydro mpirun -n 2 python -m hydroelastic.benchmarks.volume_scaling 1e5 2.5e5 5e5 1e6": "measures for minutes",
     "./hydro exec ruff format .": "changes the checkout; the lint checks the format",
     "./hydro test tests/test_modal_grammel.py": ALL_TESTS,
     "./hydro test --all": ALL_TESTS,
@@ -56,6 +53,7 @@ NOT_RUN = {
     ),
     "./hydro bench": MINUTES,
     "./hydro bench --problem circle": MINUTES,
+    "./hydro bench --problem start": MINUTES,
     "./hydro bench --quick": MINUTES,
     "./hydro run absorber_at_sea.toml --no-images": (
         "some seconds; tests/test_fem_solids_of_revolution.py has a spectrum"

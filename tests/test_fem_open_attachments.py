@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from float_scenes import BARGE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from open_cases import answer, radiation, sea
@@ -17,15 +18,6 @@ from hydroelastic.modal.floats.thin_float_radiation import complex_added_mass
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import float_profile
 
-BARGE: dict[str, Any] = {
-    "kind": "float",
-    "shape": "rectangle",
-    "half_width": 1.0,
-    "half_height": 0.5,
-    "vertical_centre_of_gravity": 0.1,
-    "radius_of_gyration": 0.8,
-    "motions": ["heave", "sway", "roll"],
-}
 THIN = {"kind": "float", "shape": "parabola", "half_width": 0.1, "half_height": 1.0, "boundary": "thin"}
 PROFILE = float_profile("parabola", 0.1, 1.0)
 LAYERS = TwoLayers(

@@ -6,17 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from float_scenes import BARGE
 from open_cases import answer, in_dataset, radiation, sea
 
-BARGE: dict[str, Any] = {
-    "kind": "float",
-    "shape": "rectangle",
-    "half_width": 1.0,
-    "half_height": 0.5,
-    "vertical_centre_of_gravity": 0.1,
-    "radius_of_gyration": 0.8,
-    "motions": ["heave", "sway", "roll"],
-}
 SHIP = {
     "kind": "float",
     "shape": "rectangle",
@@ -245,7 +237,7 @@ BEAMS: dict[str, tuple[dict[str, Any], float, list[float], dict[str, Any]]] = {
     "held": (PLATE, inf, [1.5, 3.0], SPRINGS),
     "held in long waves": (PLATE, inf, [0.3], SPRINGS),
     "platform": ({"length": 300.0, "flexural_rigidity": 4.7e10, "mass_per_length": 256.25}, 58.5, [0.25, 0.6], {}),
-    "ice floe": ({"length": 100.0, "flexural_rigidity": 5.5e8, "mass_per_length": 922.5}, 20.0, [0.3, 1.0], {}),
+    "ice floe": (FLOE, 20.0, [0.3, 1.0], {}),
     "nearly rigid": ({"length": 10.0, "flexural_rigidity": 1e10, "mass_per_length": 1e3}, inf, [0.3, 1.2, 2.4], {}),
     "shallow": ({"length": 60.0, "flexural_rigidity": 2e9, "mass_per_length": 500.0}, 20.0, [0.15, 0.8], {}),
     "two sections": (
@@ -289,10 +281,8 @@ def test_errors_of_loads_are_not_too_small_and_not_far_too_large(name: str) -> N
 @pytest.mark.slow_but("inf")
 @pytest.mark.parametrize("depth", [inf, 30.0])
 def test_errors_in_long_waves_and_in_reflected_ones_are_not_far_too_large(depth: float) -> None:
-    barge = {"kind": "float", "shape": "rectangle", "half_width": 10.0, "half_height": 4.0, "draught": 4.0}
-    barge |= {"vertical_centre_of_gravity": 1.0, "radius_of_gyration": 7.0, "motions": ["heave", "sway", "roll"]}
     asked = {"kind": "response", "omega": [0.1, 1.1], "hull_pressures": True}
-    both = [solved(barge, asked, one, depth=depth) for one in (1e-4, 1e-2)]
+    both = [solved(SHIP, asked, one, depth=depth) for one in (1e-4, 1e-2)]
     reference, found = (one.response[0] for one in both)
     exact, pressure = same_pressures(*both)
     for row in range(2):
@@ -318,10 +308,7 @@ def test_errors_of_drift_and_pressures_are_not_too_small_and_not_far_too_large()
 
 def test_waves_that_are_left_out_make_a_spectrum_unconverged() -> None:
     waves = {"kind": "spectrum", "significant_height": 2.0, "peak_period": 8.0, "highest_omega": 0.9}
-    barge = {"kind": "float", "shape": "rectangle", "half_width": 10.0, "half_height": 4.0, "draught": 4.0}
-    solution = solved(
-        barge | {"vertical_centre_of_gravity": 1.0, "radius_of_gyration": 7.0, "motions": ["heave"]}, waves, 1e-2
-    )
+    solution = solved(SHIP | {"motions": ["heave"]}, waves, 1e-2)
     assert solution.status == "unconverged"
     assert any("raise highest_omega" in reason for reason in solution.summary["reasons"])
     (table,) = solution.spectrum

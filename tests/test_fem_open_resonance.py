@@ -56,9 +56,10 @@ def test_circle(tolerance: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("liquids", THIN_LIQUIDS)
+@pytest.mark.parametrize("liquids", ["water", "deep"])
 @pytest.mark.parametrize("shape", ["wedge", "parabola", "ellipse"])
 def test_thin_floats(shape: Any, liquids: str) -> None:
+    """In liquids without bed and lid, in which the theory has a resonance."""
     found = resonance(slender(shape, liquids, 1e-6), count=1)
     exact = open_float_estimate(float_profile(shape, 0.1 * RADIUS, RADIUS), THIN_LIQUIDS[liquids], []).resonance
     assert exact is not None

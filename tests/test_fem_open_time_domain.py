@@ -24,7 +24,7 @@ from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
 from hydroelastic.scenes.models import SeaScene, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.open_water.solve import solve_open
+from hydroelastic.scenes.open_water.run import solve_open
 
 TOLERANCE, CREST = 1e-2, 1.5
 WAVE = RegularWave(omega=2.2, amplitude=0.05, phase=0.3)

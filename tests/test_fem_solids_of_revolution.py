@@ -446,7 +446,7 @@ def test_a_float_between_two_liquids_radiates_what_it_loses() -> None:
 
 @SLOW
 @pytest.mark.parametrize(
-    ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-4), ("hemisphere Ka", 1e-6), ("c1 Ka", 1e-5)]
+    ("name", "tolerance"), [("m5 annulus with moonpool K", 1e-4), ("hemisphere Ka", 1e-4), ("c1 Ka", 1e-4)]
 )
 def test_impulse_responses_give_the_references_back(name: str, tolerance: float) -> None:
     """By rational functions through the twenty frequencies that are told, whose poles are those of the water."""
@@ -510,18 +510,18 @@ def test_irregular_waves_are_regular_ones_summed(tolerance: float) -> None:
 @SLOW
 @pytest.mark.parametrize("depth", [math.inf, 2.0])
 def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> None:
-    """To 1e-6, of all motions together; over a bed heave has a logarithm at low frequencies."""
+    """Far below the tolerance, of all motions together; over a bed heave has a logarithm at low frequencies."""
     request = {"kind": "impulse_response", "times": [0.0, 1.0, 10.0]}
-    (table,) = solved([LOW], depth, 1e-6, request).impulse_response
-    # Measured 2.5e-7 in deep water. The estimate, 1.7e-3, is of K(0), which damping beyond the last frequency adds to.
-    assert table.causality_error.max() < 1e-6 < table.relative_error < 3e-3
+    (table,) = solved([LOW], depth, 1e-4, request).impulse_response
+    # Measured 1e-7. The estimate, 2.4e-3, is of K(0), which damping beyond the last frequency adds to.
+    assert table.causality_error.max() < 1e-6 < table.relative_error < 4e-3
     assert np.all(table.impulse_response_error[1:] < 0.5 * table.impulse_response_error[0])
     omega = float(table.omega[12])
     (known,) = solved([LOW], depth, 1e-6, radiation(omega, math.inf)).radiation
     size = np.abs(known.added_mass[0]).max()
-    np.testing.assert_allclose(table.added_mass[12], known.added_mass[0], atol=2e-6 * size)
-    np.testing.assert_allclose(table.radiation_damping[12], known.radiation_damping[0], atol=2e-6 * omega * size)
-    np.testing.assert_allclose(table.infinite_frequency_added_mass, known.added_mass[1], atol=2e-6 * size)
+    np.testing.assert_allclose(table.added_mass[12], known.added_mass[0], atol=1e-6 * size)
+    np.testing.assert_allclose(table.radiation_damping[12], known.radiation_damping[0], atol=1e-6 * omega * size)
+    np.testing.assert_allclose(table.infinite_frequency_added_mass, known.added_mass[1], atol=1e-6 * size)
 
 
 @SLOW

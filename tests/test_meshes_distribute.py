@@ -11,10 +11,9 @@ from dolfinx import fem
 from mpi4py import MPI
 from outlines import FLOAT, INTERFACE, LOWER, UPPER, Circle, circle_tank, thin_float_tank, two_liquids
 
-from hydroelastic.meshes.bisection import bisected
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.compat import coordinate_degree
-from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
+from hydroelastic.meshes.distribute import TankMesh, bisected, distribute_mesh
 from hydroelastic.meshes.geometry import BOTTOM
 from hydroelastic.meshes.outline import Outline
 

@@ -14,6 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import hydroelastic as he
+from hydroelastic.meshes.files import load_mesh, save_mesh
+from hydroelastic.meshes.tagged_mesh import MeshError
 
 FORMATS = (".msh", ".vtu", ".xdmf")
 BEAM = {"start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
@@ -217,3 +219,16 @@ def test_a_damaged_file_is_read_or_refused_in_words(
     except (he.SceneError, he.UnsolvedError):
         return
     assert np.isfinite(result.modes.omega).all()
+
+
+def test_a_mesh_is_written_and_read_back_in_each_format(tmp_path: Path) -> None:
+    mesh = load_mesh(users_mesh(tmp_path / "tank.msh"))
+    for suffix in FORMATS:
+        save_mesh(mesh, tmp_path / f"again{suffix}")
+        again = load_mesh(tmp_path / f"again{suffix}")
+        np.testing.assert_allclose(again.points, mesh.points, rtol=0, atol=1e-14)
+        for name in ("cells", "cell_tags", "facets", "facet_tags"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(mesh, name))
+        assert (again.cell_names, again.facet_names) == (mesh.cell_names, mesh.facet_names)
+    with pytest.raises(MeshError, match=r"tank\.stl.*\.msh"):
+        save_mesh(mesh, tmp_path / "tank.stl")

@@ -30,9 +30,9 @@ from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.curve_nodes import straight_elements
+from hydroelastic.meshes.distribute import geometry_nodes
 from hydroelastic.meshes.edges import edges_of
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL, SYMMETRY_PLANE
-from hydroelastic.meshes.geometry_nodes import geometry_nodes
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.size_field import SizeField
 from hydroelastic.meshes.tagged_mesh import TaggedMesh

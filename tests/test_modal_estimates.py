@@ -9,7 +9,7 @@ from base_beam import BASE
 
 from hydroelastic.modal.beam.estimates import all_estimates as uncached_estimates
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
-from hydroelastic.modal.beam.grammel_terms import term_tones
+from hydroelastic.modal.beam.grammel import term_tones
 from hydroelastic.modal.estimate import frequency_from_added_mass
 
 all_estimates = functools.cache(uncached_estimates)

@@ -9,8 +9,7 @@ import pytest
 from base_beam import BASE
 from scipy.linalg import eigh
 
-from hydroelastic.modal.beam.grammel import beam_quotients, quotients
-from hydroelastic.modal.beam.grammel_terms import one_term_root, term_tones
+from hydroelastic.modal.beam.grammel import beam_quotients, one_term_root, quotients, term_tones
 
 
 def _pencil(size: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.random.Generator]:
@@ -55,7 +54,7 @@ def test_one_term_skips_poles_that_decouple() -> None:
     # gives 30.127 against the dry 13.983 for narrow gaps. Even n must stay below the first dry frequency.
     narrow = dataclasses.replace(BASE, tank_length=4.4, start=0.2)
     assert one_term_root(narrow, 1) == pytest.approx(30.12721, rel=1e-6)
-    assert one_term_root(narrow, 2) < narrow.dry_angular_frequencies(1)[0]
+    assert one_term_root(narrow, 2) < 13.983
 
 
 @pytest.mark.parametrize("hydrostatic", [False, True])

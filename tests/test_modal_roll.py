@@ -11,8 +11,7 @@ from roll_trains import PRINTED, SHIPS, TRAIN, K, exponential_motion, reference_
 from scipy.integrate import solve_ivp
 
 from hydroelastic.modal.damped_pair import damped_pair
-from hydroelastic.modal.roll.motion import roll_path, roll_response
-from hydroelastic.modal.roll.wave import response_from_rest
+from hydroelastic.modal.roll.motion import response_from_rest, roll_path, roll_response
 from hydroelastic.physics.ship import Ship
 from hydroelastic.physics.wave import WaveTrain
 

@@ -7,10 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from roll_trains import PRINTED, TRAIN, K
+from roll_trains import PRINTED, TRAIN, K, free_swings
 
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
-from hydroelastic.modal.roll.decrement import swing_amplitudes
 from hydroelastic.modal.roll.motion import roll_path
 from hydroelastic.modal.roll.quadratic import quadratic_roll_path
 from hydroelastic.modal.roll.statistics import roll_statistics
@@ -151,7 +150,7 @@ def test_quadratic_damping() -> None:
     roll, d = Ship(natural_frequency=K, damping=0.02 * K), 0.6
     path = quadratic_roll_path(replace(roll, quadratic_damping=d), NO_WAVES, 60.0, angle=0.5, tolerance=1e-10)
     result = roll_statistics(path, 60.0)
-    expected = swing_amplitudes(replace(roll, quadratic_damping=d), 0.5, len(result.swing_angles) - 1)
+    expected = free_swings(replace(roll, quadratic_damping=d), 0.5, len(result.swing_angles) - 1)
     assert np.abs(result.swing_angles) == pytest.approx(expected, abs=1e-10)
     # The mean with other nodes.
     times = np.linspace(0, 60, 200_001)

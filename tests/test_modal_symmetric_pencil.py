@@ -7,7 +7,7 @@ from scipy.linalg import eigh
 from scipy.special import betainc
 
 from hydroelastic.modal.beam.surface_operator import GRADING, _incomplete_beta
-from hydroelastic.modal.symmetric_pencil import pencil_modes
+from hydroelastic.modal.beam.tone_pencil import pencil_modes
 
 
 def _pencil(size: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

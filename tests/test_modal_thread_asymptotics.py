@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from thread_cases import CASES, inputs, load_of, tolerance, worst_difference
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.critical import critical_angle, critical_line
+from hydroelastic.modal.thread.critical import critical_line
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
 from hydroelastic.modal.thread.march import march_back
-from hydroelastic.modal.thread.tension_dominated import pulled_up_in_uniform_stream, tension_dominated
+from hydroelastic.modal.thread.shape import NoAsymptoticError
+from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream, VeeringStream
 from hydroelastic.physics.thread_load import ThreadLoad
 
@@ -88,18 +88,6 @@ def test_integrals_are_cut_where_the_thread_meets_a_break() -> None:
     assert alone == pytest.approx(cut, rel=1e-15, abs=1e-15)
 
 
-def test_elementary_formula_of_a_large_pull() -> None:
-    errors, force_errors = [], []
-    for small in HALVES:
-        load = ThreadLoad(weight=0.7 * small, normal_drag=0.5 * small, stream=UniformStream((1.0, 0.0, 0.0)))
-        exact = march_back(load, 2.0, (0.0, 0.0, 1.0), tolerance=1e-12)
-        place, force = pulled_up_in_uniform_stream(0.7 * small, 0.5 * small, 2.0, 1.0)
-        errors.append(float(np.linalg.norm(exact.positions[-1] - place)))
-        force_errors.append(float(np.linalg.norm(exact.forces[0] - force)))
-    assert order_of(HALVES, errors) == pytest.approx(3.0, abs=0.1)
-    assert order_of(HALVES, force_errors) == pytest.approx(3.0, abs=0.1)
-
-
 def drag_case(weight: float) -> tuple[ThreadLoad, list[float]]:
     known = load_of("A04")
     load = ThreadLoad(
@@ -152,12 +140,6 @@ def test_critical_line() -> None:
     line = critical_line(load, length, [0.0, length / 2, length])
     values = {"rB": line.positions[2], "N_A": line.forces[0], "r_mid": line.positions[1], "T_A": line.tensions[0]}
     assert worst_difference("S08", **values) < tolerance("S08")
-    normal = load.normal_drag * 4
-    assert critical_angle(load.weight, normal) == pytest.approx(0.4028989545145, rel=1e-12)
-    assert critical_angle(CASES["S07"]["inputs"]["w"], 13.299375 * 6.25) == pytest.approx(0.3240531664353, rel=1e-12)
-    assert critical_angle(1.0, 0.0) == pytest.approx(math.pi / 2)
-    # Nearly level, f² = w/Rₙ.
-    assert critical_angle(1e-18, 1.0) == pytest.approx(1e-9, rel=1e-12)
 
 
 STREAM = UniformStream((1.0, 0.0, 0.0))
@@ -170,7 +152,6 @@ DRAG = ThreadLoad(weight=0.1, normal_drag=1.0, stream=STREAM)
         (lambda: tension_dominated(DRAG, 1.0, (0, 0, 0.5), [0.0]), "of the tension"),
         (lambda: tension_dominated(DRAG, 1.0, (0, 0, 0), [0.0]), "no force"),
         (lambda: tension_dominated(DRAG, 1.0, (0, 0, 9), [0.0], order=3), "order is 3"),
-        (lambda: pulled_up_in_uniform_stream(1.0, 1.0, 1.0, 1.0), "below 0.5"),
         (lambda: drag_dominated(DRAG, (0, 0, 1)), "one of them"),
         (lambda: drag_dominated(DRAG, (0, 0, 1), height=-1.0), "height is -1"),
         (lambda: drag_dominated(DRAG, (0, 1, 1), height=1.0), "plane of the stream"),
@@ -190,7 +171,6 @@ DRAG = ThreadLoad(weight=0.1, normal_drag=1.0, stream=STREAM)
             lambda: critical_line(ThreadLoad(weight=1.0, stream=ShearedStream((1, 0, 0), (1, 0, 0))), 1.0, [0.0]),
             "uniform stream only",
         ),
-        (lambda: critical_angle(0.0, 0.0), "no critical angle"),
     ],
 )
 def test_conditions(make: Callable[[], object], message: str) -> None:

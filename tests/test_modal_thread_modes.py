@@ -13,7 +13,6 @@ from thread_cases import CASES, inputs, results, tolerance
 from hydroelastic.modal.thread.axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
 from hydroelastic.modal.thread.modes import (
     chain_frequencies,
-    damped_exponents,
     irvine_parameter,
     sagging_cable_frequencies,
     tensioned_beam_frequencies,
@@ -59,17 +58,6 @@ def test_chain_without_a_body_is_the_limit_of_a_light_one() -> None:
     bare, light = chain_frequencies(2.0, 3.0, 0.7, 5), chain_frequencies(2.0, 3.0, 0.7, 5, 1e-9, 1e-10)
     assert bare[0] == pytest.approx(2.404825557695773 / 2 * math.sqrt(3 / 1.4), rel=1e-14)
     assert light == pytest.approx(bare, rel=1e-8)
-
-
-def test_linear_damping() -> None:
-    found = damped_exponents([1.0, 2.0, 0.0], 4.0, 1.25)
-    # λ² + (c/m)λ + ω² = 0: sum and product of the roots.
-    assert found.sum(axis=1) == pytest.approx(-3.2 + 0j)
-    assert found.prod(axis=1) == pytest.approx(np.array([1.0, 4.0, 0.0]) + 0j)
-    assert found[0].imag.any() == 0
-    assert found[1, 0].imag > 0
-    # Far beyond critical damping the slow root keeps its digits.
-    assert damped_exponents([1e-6], 2.0, 1.0)[0, 0] == pytest.approx(-5e-13, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["M05a", "M05c"])
@@ -182,7 +170,6 @@ def test_free_end_damps_below_flutter_only_if_it_is_blunt() -> None:
         (lambda: chain_frequencies(1.0, -1.0, 1.0, 1), "weight is -1"),
         (lambda: chain_frequencies(1.0, 1.0, 1.0, 1, 0.0, 1.0), "tip_weight is 0"),
         (lambda: chain_frequencies(1.0, 1.0, 1.0, 1, 1.0, -1.0), "tip_mass is -1"),
-        (lambda: damped_exponents([1.0], -1.0, 1.0), "damping is -1"),
         (lambda: irvine_parameter(1.0, 1.0, 1.0, 0.0), "axial_rigidity is 0"),
         (lambda: sagging_cable_frequencies(1.0, 1.0, 1.0, -1.0, 1), "irvine is -1"),
         (lambda: string_in_axial_flow(1.0, 0.0, 1.0, 1.0, 1.0, 1), "tension is 0"),

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from hydroelastic.physics.irregular_waves import moments, statistics
-from hydroelastic.physics.wave_components import wave_components
+from hydroelastic.physics.irregular_waves import moments, statistics, wave_components
 from hydroelastic.physics.wave_spectrum import PeakedSpectrum, TabulatedSpectrum
 
 PM = PeakedSpectrum(height=3.0, period=9.0)

@@ -27,8 +27,6 @@ HEAVY = (
         "petsc4py",
         "slepc4py",
         "mpi4py",
-        "scipy",
-        "scipy.linalg",
         "meshio",
     }
 )
@@ -269,7 +267,7 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         # What solves draws only when asked, and draws sections without VTK.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
         (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
-        (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING - {"scipy", "scipy.linalg"}),
+        (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING),
         (["run", "aquarium", *COARSE], HEAVY - READING - SPACE),
     ],
 )

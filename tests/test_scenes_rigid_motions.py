@@ -9,7 +9,7 @@ import pytest
 from scipy.linalg import block_diag, null_space
 
 import hydroelastic as he
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Level
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.physical import physical_tank

@@ -12,9 +12,8 @@ from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body, rigid_shapes
-from hydroelastic.physics.dofs import body_name
+from hydroelastic.physics.dofs import PLACES, Motion, body_name
 from hydroelastic.physics.floats import RigidFloat, dof_of_motion
-from hydroelastic.physics.motions import PLACES, Motion
 from hydroelastic.physics.symmetry import Parity, motion_parity
 
 # Coupling and stiffness below this part of the largest are rounding.

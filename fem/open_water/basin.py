@@ -40,22 +40,14 @@ CUT = 0.03
 
 @dataclass(frozen=True, kw_only=True)
 class OpenBasin:
-    """The part of open water around the bodies.
+    """The part of open water around the bodies."""
 
-    Attributes:
-        tank: the basin as a closed tank, in units of its length.
-        units: units of `tank`.
-        origin: abscissa of the basin's left side in the open water, m.
-        phase_at: abscissa in the open water at which the crest of an incident wave is at t = 0, m.
-        layers: the liquids of the open water, in SI units.
-        depths: depths of the liquids of the open water, from the bottom up, in basin lengths; may be infinite.
-    """
-
-    tank: Tank
-    units: Scales
-    origin: float
-    phase_at: float
-    layers: TwoLayers
+    tank: Tank  # the basin as a closed tank, in units of its length
+    units: Scales  # units of `tank`
+    origin: float  # abscissa of the basin's left side in the open water, m
+    phase_at: float  # abscissa in the open water at which the crest of an incident wave is at t = 0, m
+    layers: TwoLayers  # the liquids of the open water, in SI units
+    # depths of the liquids of the open water, from the bottom up, in basin lengths; may be infinite
     depths: tuple[float, ...]
 
     @property
@@ -176,19 +168,12 @@ def extent_of_bodies(water: Tank) -> tuple[float, float, float, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class AbsorbingLayer:
-    """Dimensions of the absorbing layer around a basin.
+    """Dimensions of the absorbing layer around a basin."""
 
-    Attributes:
-        angle: angle α of the complex scaling, rad.
-        first: width of the first layer of cells, in basin lengths.
-        growth: ratio of the distances of successive layers of cells from the basin.
-        farthest: width of the whole absorbing layer, in basin lengths.
-    """
-
-    angle: float
-    first: float
-    growth: float
-    farthest: float
+    angle: float  # angle α of the complex scaling, rad
+    first: float  # width of the first layer of cells, in basin lengths
+    growth: float  # ratio of the distances of successive layers of cells from the basin
+    farthest: float  # width of the whole absorbing layer, in basin lengths
 
     def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], CellLayers]]:
         """Return layers of cells in stages, each with the names of the sides that it extends.

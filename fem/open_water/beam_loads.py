@@ -37,24 +37,17 @@ _SPARE_POINTS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class AlongBeam:
-    """Deflection and loads along a beam in waves of a unit of c, in units of the basin. Shapes: w waves, p points.
+    """Deflection and loads along a beam in waves of a unit of c, in units of the basin. Shapes: w waves, p points."""
 
-    Attributes:
-        deflection: w upwards, shape (w, p).
-        bending_moment: EI w″, shape (w, p).
-        shear_force: (EI w″)′, shape (w, p).
-    """
-
-    deflection: np.ndarray
-    bending_moment: np.ndarray
-    shear_force: np.ndarray
+    deflection: np.ndarray  # w upwards, shape (w, p)
+    bending_moment: np.ndarray  # EI w″, shape (w, p)
+    shear_force: np.ndarray  # (EI w″)′, shape (w, p)
 
 
 class BeamLoads:
     """Deflection and loads along a beam in waves.
 
     Args:
-        model: the problem.
         index: of the beam among the bodies.
         x: distances from its left end, in units of the basin, shape (p,).
     """
@@ -178,7 +171,7 @@ class BeamLoads:
         """Distance from the left end, and upward force and anticlockwise moment of each spring and damper in each
         wave."""
         units, attachments = self._model.basin.units, self._model.attachments
-        betas = np.array([one.drag for one in attachments]).reshape(-1, 3)
+        betas = np.array([one.scaled(units).drag for one in attachments]).reshape(-1, 3)
         linear = np.zeros((len(motions), *betas.shape))
         linear[:, betas > 0.0] = drag
         found = []
@@ -214,9 +207,6 @@ class _Trace:
     """∫₀ˣ [ρΨ] dx′ and ∫₀ˣ (x − x′) [ρΨ] dx′ along a surface.
 
     Args:
-        model: the problem.
-        surface: its name.
-        start: of its left end.
         x: distances from there, shape (p,).
     """
 

@@ -31,17 +31,11 @@ _STEP = 5e-4
 
 @dataclass(frozen=True, kw_only=True)
 class ComplexScaling:
-    """Region and angle of the complex scaling.
+    """Region and angle of the complex scaling."""
 
-    Attributes:
-        angle: angle α of the rotation, rad.
-        low: lower bounds of the basin, shape (gdim,).
-        high: upper bounds, shape (gdim,).
-    """
-
-    angle: float
-    low: tuple[float, ...]
-    high: tuple[float, ...]
+    angle: float  # angle α of the rotation, rad
+    low: tuple[float, ...]  # lower bounds of the basin, shape (gdim,)
+    high: tuple[float, ...]  # upper bounds, shape (gdim,)
 
     def turned(self, mesh: Mesh) -> np.ndarray:
         """Whether each axis is rotated in each cell of this process, shape (cells, gdim)."""

@@ -31,25 +31,15 @@ _LEAST_MISSED = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Curves:
-    """Responses at many frequencies.
+    """Responses at many frequencies."""
 
-    Attributes:
-        solver: by which they were found.
-        omegas: ascending, rad/s, shape (n,).
-        responses: at these.
-        errors: estimated relative errors, shape (n,).
-        reduced: those by the reduced basis alone, shape (n,).
-        incident: indices of the incident waves.
-        swept: the last sweep, which tells the error of the basis.
-    """
-
-    solver: OpenSolver
-    omegas: np.ndarray
-    responses: list[OpenResponse]
-    errors: np.ndarray
-    reduced: np.ndarray
-    incident: list[int]
-    swept: Swept[OpenResponse]
+    solver: OpenSolver  # by which they were found
+    omegas: np.ndarray  # ascending, rad/s, shape (n,)
+    responses: list[OpenResponse]  # at these
+    errors: np.ndarray  # estimated relative errors, shape (n,)
+    reduced: np.ndarray  # those by the reduced basis alone, shape (n,)
+    incident: list[int]  # indices of the incident waves
+    swept: Swept[OpenResponse]  # the last sweep, which tells the error of the basis
 
     def at(self, omegas: np.ndarray, tolerance: float) -> Curves:
         """Return the responses at all these frequencies and further ones (collective)."""

@@ -63,19 +63,12 @@ def mirror_angle(damping: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Root:
-    """A resonance on the reduced basis.
-
-    Attributes:
-        squared: λ.
-        bodies: body unknowns a, shape (body unknowns,).
-        norm: aᵀ D'(λ) a.
-        step: relative last step of Newton's method.
-    """
+    """A resonance on the reduced basis."""
 
     squared: complex
-    bodies: np.ndarray
-    norm: complex
-    step: float
+    bodies: np.ndarray  # body unknowns a, shape (body unknowns,)
+    norm: complex  # aᵀ D'(λ) a
+    step: float  # relative last step of Newton's method
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,17 +105,11 @@ class _Motions:
 
 @dataclass(frozen=True, kw_only=True)
 class _Reduced:
-    """Motions without outgoing waves on the reduced basis.
+    """Motions without outgoing waves on the reduced basis."""
 
-    Attributes:
-        motions: H, unknowns, X and W.
-        loads: Fa − gb of a unit of each, shape (body unknowns, own free unknowns).
-        coordinates: of T⁻¹(Fa − gb), shape (body unknowns, basis).
-    """
-
-    motions: _Motions
-    loads: np.ndarray
-    coordinates: np.ndarray
+    motions: _Motions  # H, unknowns, X and W
+    loads: np.ndarray  # Fa − gb of a unit of each, shape (body unknowns, own free unknowns)
+    coordinates: np.ndarray  # of T⁻¹(Fa − gb), shape (body unknowns, basis)
 
 
 class DampedSolver:

@@ -73,34 +73,21 @@ class DriftingFloatError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class DecaySolution:
-    """Result of a decay analysis.
+    """Result of a decay analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: largest error relative to the initial displacement.
-        solved: number of frequencies of the ray with a factorization at the last resolution.
-    """
-
-    table: DecayTable
-    model: OpenModel
-    error: float
-    solved: int
+    table: DecayTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # largest error relative to the initial displacement
+    solved: int  # number of frequencies of the ray with a factorization at the last resolution
 
 
 @dataclass(frozen=True, kw_only=True)
 class _ResonantMotion:
-    """The sum over the resonances to the right of the ray, dimensionless. Shapes: n times, m body unknowns.
+    """The sum over the resonances to the right of the ray, dimensionless. Shapes: n times, m body unknowns."""
 
-    Attributes:
-        motion: Σ 2 Re(rⱼ e^{pⱼt}), shape (n, m).
-        errors: estimated error of the motion, shape (n,).
-        fastest: the largest |ω|.
-    """
-
-    motion: np.ndarray
-    errors: np.ndarray
-    fastest: float
+    motion: np.ndarray  # Σ 2 Re(rⱼ e^{pⱼt}), shape (n, m)
+    errors: np.ndarray  # estimated error of the motion, shape (n,)
+    fastest: float  # the largest |ω|
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,17 +34,11 @@ _LEAST = 1e-200
 
 @dataclass(frozen=True, kw_only=True)
 class DualOfDrift:
-    """The dual solution z of the drift force in one incident wave, per |c|² of it.
+    """The dual solution z of the drift force in one incident wave, per |c|² of it."""
 
-    Attributes:
-        response: of the bodies.
-        wave: index of the incident wave.
-        damping: of the bodies beyond that of the equations of motion, shape (body unknowns, body unknowns).
-    """
-
-    response: OpenResponse
-    wave: int
-    damping: np.ndarray
+    response: OpenResponse  # of the bodies
+    wave: int  # index of the incident wave
+    damping: np.ndarray  # of the bodies beyond that of the equations of motion, shape (body unknowns, body unknowns)
 
     @cached_property
     def motions(self) -> np.ndarray:

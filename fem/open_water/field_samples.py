@@ -30,29 +30,17 @@ _Moving = TypeVar("_Moving", SurfaceCurve, FloatSection)
 
 @dataclass(frozen=True, kw_only=True)
 class SampledField:
-    """A motion e^{−iωt}, in SI units.
+    """A motion e^{−iωt}, in SI units."""
 
-    Attributes:
-        name: of its files.
-        points: m in the coordinates of the scene, shape (points, 2).
-        triangles: shape (triangles, 3).
-        liquid: of each triangle: 1 is the lowest, shape (triangles,).
-        potential: displacement potential ψ, m², complex, shape (points,).
-        displacement: ∇ψ, m, complex, shape (points, 2).
-        pressure: ρω²ψ, Pa, complex, shape (points,).
-        picture: what is drawn.
-        omega: ω, rad/s; with a negative imaginary part of a decaying motion.
-    """
-
-    name: str
-    points: np.ndarray
-    triangles: np.ndarray
-    liquid: np.ndarray
-    potential: np.ndarray
-    displacement: np.ndarray
-    pressure: np.ndarray
-    picture: SectionField
-    omega: complex
+    name: str  # of its files
+    points: np.ndarray  # m in the coordinates of the scene, shape (points, 2)
+    triangles: np.ndarray  # shape (triangles, 3)
+    liquid: np.ndarray  # of each triangle: 1 is the lowest, shape (triangles,)
+    potential: np.ndarray  # displacement potential ψ, m², complex, shape (points,)
+    displacement: np.ndarray  # ∇ψ, m, complex, shape (points, 2)
+    pressure: np.ndarray  # ρω²ψ, Pa, complex, shape (points,)
+    picture: SectionField  # what is drawn
+    omega: complex  # ω, rad/s; with a negative imaginary part of a decaying motion
 
 
 def sample_field(field: OpenField) -> SampledField | None:

@@ -42,29 +42,17 @@ _SAME = 1e-2
 
 @dataclass(frozen=True, kw_only=True)
 class OpenField:
-    """A motion e^{−iωt} of open water, distributed over the processes, in units of the basin.
+    """A motion e^{−iωt} of open water, distributed over the processes, in units of the basin."""
 
-    Attributes:
-        name: name of its files.
-        title: one line of text.
-        amplitude: scale of the motion, as text.
-        model: the problem.
-        squared: λ.
-        potential: ψ of the radiated and scattered waves, complex, own free unknowns, shape (free unknowns,).
-        bodies: body unknowns, complex, shape (body unknowns,).
-        metres: displacement in m per dimensionless displacement.
-        incident: the incident wave and its amplitude c, which are part of the field.
-    """
-
-    name: str
-    title: str
-    amplitude: str
-    model: OpenModel
+    name: str  # name of its files
+    title: str  # one line of text
+    amplitude: str  # scale of the motion, as text
+    model: OpenModel  # the problem
     squared: complex
-    potential: np.ndarray
-    bodies: np.ndarray
-    metres: float
-    incident: tuple[Plane, complex] | None = None
+    potential: np.ndarray  # ψ of the radiated and scattered waves, complex, own free unknowns, shape (free unknowns,)
+    bodies: np.ndarray  # body unknowns, complex, shape (body unknowns,)
+    metres: float  # displacement in m per dimensionless displacement
+    incident: tuple[Plane, complex] | None = None  # the incident wave and its amplitude c, which are part of the field
 
 
 def open_fields(problem: OpenWaterProblem, solution: OpenWaterSolution) -> Iterator[tuple[str, Iterator[OpenField]]]:

@@ -29,23 +29,14 @@ _NO_FORCE = 1e-4
 
 @dataclass(frozen=True, kw_only=True)
 class OpenFrequency:
-    """The solution at one λ.
+    """The solution at one λ."""
 
-    Attributes:
-        model: the problem.
-        squared: λ.
-        incidence: the travelling waves, first those to the right, then those to the left.
-        hydrodynamic: H, shape (body unknowns, body unknowns).
-        diffraction: Fᵀφ_D of each incident wave, shape (waves, body unknowns).
-        potentials: returns `radiated` and `diffracted`.
-    """
-
-    model: OpenModel
+    model: OpenModel  # the problem
     squared: complex
-    incidence: Incidence
-    hydrodynamic: np.ndarray
-    diffraction: np.ndarray
-    potentials: Callable[[], tuple[np.ndarray, np.ndarray]]
+    incidence: Incidence  # the travelling waves, first those to the right, then those to the left
+    hydrodynamic: np.ndarray  # H, shape (body unknowns, body unknowns)
+    diffraction: np.ndarray  # Fᵀφ_D of each incident wave, shape (waves, body unknowns)
+    potentials: Callable[[], tuple[np.ndarray, np.ndarray]]  # returns `radiated` and `diffracted`
 
     @property
     def radiated(self) -> np.ndarray:
@@ -155,46 +146,29 @@ class BodyEquations:
     """Equations of motion of the bodies at one λ, from which a response to waves follows with any further damping.
 
     Shapes: m body unknowns, w waves.
-
-    Attributes:
-        dynamic: K − iωB − λ(M_b + H), shape (m, m).
-        forces: X of each wave, shape (w, m).
-        radiated: gᵀψ of a unit of each unknown, shape (w, m).
-        diffracted: gᵀφ_D of each wave, shape (w, w).
     """
 
-    dynamic: np.ndarray
-    forces: np.ndarray
-    radiated: np.ndarray
-    diffracted: np.ndarray
+    dynamic: np.ndarray  # K − iωB − λ(M_b + H), shape (m, m)
+    forces: np.ndarray  # X of each wave, shape (w, m)
+    radiated: np.ndarray  # gᵀψ of a unit of each unknown, shape (w, m)
+    diffracted: np.ndarray  # gᵀφ_D of each wave, shape (w, w)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OpenResponse:
-    """Bodies that move freely in waves, at one λ.
+    """Bodies that move freely in waves, at one λ."""
 
-    Attributes:
-        model: the problem.
-        squared: λ.
-        incidence: the travelling waves, first those to the right, then those to the left.
-        incident: indices of the incident waves.
-        fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
-        potentials: returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape
-            (k, waves), and of motions, shape (k, body unknowns).
-        motions: body unknowns, shape (incident, body unknowns).
-        equations: from which the motions follow, without drag.
-        damping: of the bodies beyond that of these equations, as by drag, shape (incident, body unknowns, body
-            unknowns).
-    """
-
-    model: OpenModel
+    model: OpenModel  # the problem
     squared: complex
-    incidence: Incidence
-    incident: list[int]
-    fluxes: np.ndarray
+    incidence: Incidence  # the travelling waves, first those to the right, then those to the left
+    incident: list[int]  # indices of the incident waves
+    fluxes: np.ndarray  # gᵀψ of the radiated and diffracted waves of each, shape (waves, incident)
+    # returns ψ, shape (k, free unknowns), of parts of the diffracted waves of each wave, shape (k, waves), and of
+    # motions, shape (k, body unknowns)
     potentials: Callable[[np.ndarray, np.ndarray], np.ndarray]
-    motions: np.ndarray
-    equations: BodyEquations
+    motions: np.ndarray  # body unknowns, shape (incident, body unknowns)
+    equations: BodyEquations  # from which the motions follow, without drag
+    # of the bodies beyond that of these equations, as by drag, shape (incident, body unknowns, body unknowns)
     damping: np.ndarray
 
     @cached_property

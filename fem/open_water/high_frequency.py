@@ -29,19 +29,12 @@ _POINTS = 48
 
 @dataclass(frozen=True, kw_only=True)
 class HighFrequencySeries:
-    """The high-frequency series of H. Shapes: m body unknowns.
+    """The high-frequency series of H. Shapes: m body unknowns."""
 
-    Attributes:
-        unit: the frequency |ω| of the arc.
-        limit: a(∞), shape (m, m).
-        coefficients: C₁, D₁, C₂ …, shape (2N, m, m).
-        fewer: coefficients with N − 2 orders, shape (2N − 4, m, m).
-    """
-
-    unit: float
-    limit: np.ndarray
-    coefficients: np.ndarray
-    fewer: np.ndarray
+    unit: float  # the frequency |ω| of the arc
+    limit: np.ndarray  # a(∞), shape (m, m)
+    coefficients: np.ndarray  # C₁, D₁, C₂ …, shape (2N, m, m)
+    fewer: np.ndarray  # coefficients with N − 2 orders, shape (2N − 4, m, m)
 
     def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
         """Return H at ω of shape (n,): shape (n, m, m)."""

@@ -1,6 +1,6 @@
 """Incident waves: their pressures on the bodies, and amplitudes of radiated and scattered waves far away.
 
-A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `far_field` an outgoing
+A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. with the fluxes I(φ) of `field_model` an outgoing
 ψ ~ c± e^{±ikx} Z has
 
     c± = i I(φ∓)/(2kN),    N = ∫ρZ² dy,
@@ -159,19 +159,12 @@ def direction_of(waves_from: Literal["left", "right"]) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class Incidence:
-    """Integrals of incident waves over the surfaces of the bodies.
+    """Integrals of incident waves over the surfaces of the bodies."""
 
-    Attributes:
-        planes: the waves, in units of the basin as all integrals.
-        fluxes: g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex.
-        pressures: ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns).
-        own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
-    """
-
-    planes: Sequence[Wave]
-    fluxes: np.ndarray
-    pressures: np.ndarray
-    own: np.ndarray
+    planes: Sequence[Wave]  # the waves, in units of the basin as all integrals
+    fluxes: np.ndarray  # g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex
+    pressures: np.ndarray  # ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns)
+    own: np.ndarray  # ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ')
 
     @property
     def reversed(self) -> np.ndarray:

@@ -32,23 +32,14 @@ _NO_WAVE = 1.0
 
 @dataclass(frozen=True, kw_only=True)
 class BodiesAtInfiniteFrequency:
-    """The bodies with their added mass at infinite frequency, dimensionless.
+    """The bodies with their added mass at infinite frequency, dimensionless."""
 
-    Attributes:
-        units: units of length and frequency.
-        stiffness: K, shape (body unknowns, body unknowns).
-        mass: M_b, shape (body unknowns, body unknowns).
-        added_mass: a(∞), shape (body unknowns, body unknowns).
-        of_floats: whether each unknown belongs to a float, shape (body unknowns,).
-        motions: index of the body and degree of freedom of each unknown.
-    """
-
-    units: Scales
-    stiffness: np.ndarray
-    mass: np.ndarray
-    added_mass: np.ndarray
-    of_floats: np.ndarray
-    motions: tuple[tuple[int, Dof], ...]
+    units: Scales  # units of length and frequency
+    stiffness: np.ndarray  # K, shape (body unknowns, body unknowns)
+    mass: np.ndarray  # M_b, shape (body unknowns, body unknowns)
+    added_mass: np.ndarray  # a(∞), shape (body unknowns, body unknowns)
+    of_floats: np.ndarray  # whether each unknown belongs to a float, shape (body unknowns,)
+    motions: tuple[tuple[int, Dof], ...]  # index of the body and degree of freedom of each unknown
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
         """Natural frequencies with this added mass, rad/s, ascending, of the motions with restoring force."""

@@ -12,53 +12,32 @@ from hydroelastic.physics.dofs import Dof
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorsByCause:
-    """Parts of the relative errors of significant amplitudes; of several the largest.
+    """Parts of the relative errors of significant amplitudes; of several the largest."""
 
-    Attributes:
-        sampling_error: by the sampling of transfer functions.
-        truncation_error: by waves beyond the frequencies.
-        transfer_error: by the errors of the transfer functions.
-    """
-
-    sampling_error: float
-    truncation_error: float
-    transfer_error: float
+    sampling_error: float  # by the sampling of transfer functions
+    truncation_error: float  # by waves beyond the frequencies
+    transfer_error: float  # by the errors of the transfer functions
 
 
 @dataclass(frozen=True, kw_only=True)
 class IrregularResponse(ErrorsByCause):
-    """Statistics of one response to irregular waves; amplitudes have its unit.
-
-    Attributes:
-        quantity: which.
-        unit: m, rad or m/s², of moments N, of strain 1.
-        significant_amplitude: mean of the highest third of the amplitudes.
-        largest_amplitude: most probable largest amplitude in the duration.
-        zero_crossing_period: s.
-        relative_error: estimated relative error of the significant amplitude by all causes.
-    """
+    """Statistics of one response to irregular waves; amplitudes have its unit."""
 
     quantity: str
-    unit: str
-    significant_amplitude: float
-    largest_amplitude: float
-    zero_crossing_period: float
-    relative_error: float
+    unit: str  # m, rad or m/s², of moments N, of strain 1
+    significant_amplitude: float  # mean of the highest third of the amplitudes
+    largest_amplitude: float  # most probable largest amplitude in the duration
+    zero_crossing_period: float  # s
+    relative_error: float  # estimated relative error of the significant amplitude by all causes
 
 
 @dataclass(frozen=True, kw_only=True)
 class AirGap:
-    """The height of a point above the surface of irregular waves, linear in these.
+    """The height of a point above the surface of irregular waves, linear in these."""
 
-    Attributes:
-        point: where it is, and whether it moves.
-        still_air_gap: its height above the still water, m.
-        relative_elevation: of the water less that of the point.
-    """
-
-    point: AirGapPoint
-    still_air_gap: float
-    relative_elevation: IrregularResponse
+    point: AirGapPoint  # where it is, and whether it moves
+    still_air_gap: float  # its height above the still water, m
+    relative_elevation: IrregularResponse  # of the water less that of the point
 
     @property
     def smallest_air_gap(self) -> float:
@@ -76,26 +55,17 @@ class PlateStatistics(ErrorsByCause):
     """Statistics along a beam, or along the diameter of a round plate, in irregular waves, per metre of width.
 
     Each is of shape (p,).
-
-    Attributes:
-        body: its index among the bodies.
-        positions: abscissas, m.
-        significant_deflection: m.
-        significant_bending_moment: N.
-        largest_bending_moment: most probable largest in the duration, N.
-        significant_shear_force: N/m.
-        largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
-        relative_errors: estimated errors of the significant "deflection", "bending_moment" and "shear_force" anywhere,
-            relative to the largest along the beam.
     """
 
-    body: int
-    positions: Floats
-    significant_deflection: Floats
-    significant_bending_moment: Floats
-    largest_bending_moment: Floats
-    significant_shear_force: Floats
-    largest_stress: Floats | None
+    body: int  # its index among the bodies
+    positions: Floats  # abscissas, m
+    significant_deflection: Floats  # m
+    significant_bending_moment: Floats  # N
+    largest_bending_moment: Floats  # most probable largest in the duration, N
+    significant_shear_force: Floats  # N/m
+    largest_stress: Floats | None  # most probable largest stress at its faces, N/m²; ``None`` without a thickness
+    # estimated errors of the significant "deflection", "bending_moment" and "shear_force" anywhere, relative to the
+    # largest along the beam
     relative_errors: dict[str, float]
 
     @property
@@ -106,49 +76,27 @@ class PlateStatistics(ErrorsByCause):
 
 @dataclass(frozen=True, kw_only=True)
 class SpectrumTable:
-    """Responses to irregular waves. Shapes: n frequencies, q quantities, m motions.
+    """Responses to irregular waves. Shapes: n frequencies, q quantities, m motions."""
 
-    Attributes:
-        waves: description of the waves.
-        waves_from: the side from which they come.
-        significant_height: Hs, m.
-        duration: of the sea state, s.
-        omega: (n,) frequencies chosen by the solver, rad/s.
-        density: (n,) spectrum of the waves, m² s/rad.
-        quantities: q names.
-        transfer: (n, q) responses per unit elevation.
-        response_density: (n, q) spectra of the responses.
-        relative_error: (n,) estimated relative error of the transfer functions.
-        responses: statistics of each quantity.
-        dofs: m degrees of freedom.
-        mean_drift_force: mean force on the bodies along x, N/m; NaN about an axis in waves on two levels.
-        mean_drift_error: its estimated error, N/m.
-        mean_drift_truncation: the part of this by the waves beyond the last frequency, N/m.
-        mean_absorbed_power: mean power that linear damping from outside takes, W/m.
-        equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
-        plates: one for each beam and round plate.
-        air_gaps: of the points over the water.
-    """
-
-    waves: str
-    waves_from: Literal["left", "right"]
-    significant_height: float
-    duration: float
-    omega: Floats
-    density: Floats
-    quantities: tuple[str, ...]
-    transfer: Complexes
-    response_density: Floats
-    relative_error: Floats
-    responses: tuple[IrregularResponse, ...]
-    dofs: tuple[Dof, ...]
-    mean_drift_force: float
-    mean_drift_error: float
-    mean_drift_truncation: float
-    mean_absorbed_power: float
-    equivalent_damping: Floats
-    plates: tuple[PlateStatistics, ...]
-    air_gaps: tuple[AirGap, ...] = ()
+    waves: str  # description of the waves
+    waves_from: Literal["left", "right"]  # the side from which they come
+    significant_height: float  # Hs, m
+    duration: float  # of the sea state, s
+    omega: Floats  # (n,) frequencies chosen by the solver, rad/s
+    density: Floats  # (n,) spectrum of the waves, m² s/rad
+    quantities: tuple[str, ...]  # q names
+    transfer: Complexes  # (n, q) responses per unit elevation
+    response_density: Floats  # (n, q) spectra of the responses
+    relative_error: Floats  # (n,) estimated relative error of the transfer functions
+    responses: tuple[IrregularResponse, ...]  # statistics of each quantity
+    dofs: tuple[Dof, ...]  # m degrees of freedom
+    mean_drift_force: float  # mean force on the bodies along x, N/m; NaN about an axis in waves on two levels
+    mean_drift_error: float  # its estimated error, N/m
+    mean_drift_truncation: float  # the part of this by the waves beyond the last frequency, N/m
+    mean_absorbed_power: float  # mean power that linear damping from outside takes, W/m
+    equivalent_damping: Floats  # (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s
+    plates: tuple[PlateStatistics, ...]  # one for each beam and round plate
+    air_gaps: tuple[AirGap, ...] = ()  # of the points over the water
 
     def largest_error(self, cause: str) -> float:
         """Return the largest error of a significant amplitude or load by a cause, an attribute of `IrregularResponse`,

@@ -35,17 +35,11 @@ _LOWEST_OVER_A_BED = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class LowFrequencySeries:
-    """The low-frequency series of H. Shapes: m body unknowns.
+    """The low-frequency series of H. Shapes: m body unknowns."""
 
-    Attributes:
-        unit: the frequency |ω| at which κ is scaled to 1 and Re L = 0.
-        coefficients: C, D, E, F, G, shape (5, m, m).
-        misfit: relative error of H by the rest of the series, an upper estimate.
-    """
-
-    unit: float
-    coefficients: np.ndarray
-    misfit: float
+    unit: float  # the frequency |ω| at which κ is scaled to 1 and Re L = 0
+    coefficients: np.ndarray  # C, D, E, F, G, shape (5, m, m)
+    misfit: float  # relative error of H by the rest of the series, an upper estimate
 
     def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
         """Return H at ω of shape (n,): shape (n, m, m)."""

@@ -20,6 +20,7 @@ from hydroelastic.fem.tank.resolution import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FAR_END
 from hydroelastic.meshes.open_sea import extended, with_far_ends
@@ -135,8 +136,6 @@ def open_mesh(
     basin: OpenBasin, resolution: Resolution, absorbing_layer: AbsorbingLayer, *, infinite_frequency: bool = False
 ) -> TaggedMesh:
     """Return the mesh of the basin by gmsh with its absorbing layer, on the calling process."""
-    from hydroelastic.meshes.build import build_mesh
-
     curved = any(not hull.is_thin for hull in basin.tank.hulls.values())
     mesh = build_mesh(
         graded_outline(basin.tank, resolution, half=False, infinite_frequency=infinite_frequency),

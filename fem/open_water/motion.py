@@ -25,17 +25,12 @@ _STEPS = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class MotionSolution:
-    """Result of a motion analysis.
+    """Result of a motion analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest error of a motion, relative to the largest in the same unit: by those of forces, of added
-            mass and damping, and of causality.
-    """
-
-    table: MotionTable
-    model: OpenModel
+    table: MotionTable  # the results in SI units
+    model: OpenModel  # the last field model
+    # the largest error of a motion, relative to the largest in the same unit: by those of forces, of added mass and
+    # damping, and of causality
     error: float
 
 

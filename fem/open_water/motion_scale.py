@@ -16,20 +16,14 @@ from hydroelastic.physics.scales import Scales
 
 @dataclass(frozen=True, kw_only=True)
 class MotionScale:
-    """Units of the motions of all bodies, per metre of width; those of whole solids have one metre more.
+    """Units of the motions of all bodies, per metre of width; those of whole solids have one metre more."""
 
-    Attributes:
-        units: units of the dimensionless problem.
-        dofs: degrees of freedom, m motions.
-        turn: motions of each body unknown as columns, shape (m, m): the principal motions of a float are combinations
-            of heave and roll where gravity couples these.
-        lengths: unit of each motion, shape (m,): the unit of length in m, or 1 for roll in rad.
-    """
-
-    units: Scales
-    dofs: tuple[Dof, ...]
+    units: Scales  # units of the dimensionless problem
+    dofs: tuple[Dof, ...]  # degrees of freedom, m motions
+    # motions of each body unknown as columns, shape (m, m): the principal motions of a float are combinations of heave
+    # and roll where gravity couples these
     turn: np.ndarray
-    lengths: np.ndarray
+    lengths: np.ndarray  # unit of each motion, shape (m,): the unit of length in m, or 1 for roll in rad
 
     def masses(self, matrix: np.ndarray, *, errors: bool = False) -> np.ndarray:
         """Convert a matrix of (added) masses, shape (m, m), to kg/m, to kg for roll with heave, to kg m for roll; or

@@ -16,12 +16,11 @@ from hydroelastic.fem.bodies.round_plate import lowest_elastic
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.drift_of_orders import drift_of_orders, drift_widths
-from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.incident_waves import direction_of
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.radiation_memory import Memory
+from hydroelastic.fem.open_water.radiation_memory import ImpulseResponseSolution, Memory, solve_impulse_response
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.requests import (
     DecayRequest,

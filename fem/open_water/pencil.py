@@ -35,26 +35,17 @@ from hydroelastic.fem.surfaces import Body, LiquidSurface
 
 @dataclass(frozen=True, kw_only=True)
 class OpenPencil:
-    """Matrices of the liquid of open water, and the bodies.
+    """Matrices of the liquid of open water, and the bodies."""
 
-    Attributes:
-        liquid: the space of ψ.
-        bodies: the bodies, in the order of their unknowns.
-        free: local indices of the owned unknowns of ψ where ψ = 0 is not prescribed, shape (own free unknowns,).
-        wet: places among these of the unknowns on the surfaces of bodies, where loads act, shape (wet,).
-        laplace: A on the free unknowns.
-        mass: M on the free unknowns.
-        loads: F, own entries of the free unknowns, shape (body unknowns, own free unknowns).
-        turning: returns the derivatives of A and M with respect to the angle α of the complex scaling.
-    """
-
-    liquid: LiquidSpace
-    bodies: tuple[Body, ...]
+    liquid: LiquidSpace  # the space of ψ
+    bodies: tuple[Body, ...]  # the bodies, in the order of their unknowns
+    # local indices of the owned unknowns of ψ where ψ = 0 is not prescribed, shape (own free unknowns,)
     free: np.ndarray
-    wet: np.ndarray
-    laplace: ComplexMatrix
-    mass: ComplexMatrix
-    loads: np.ndarray
+    wet: np.ndarray  # places among these of the unknowns on the surfaces of bodies, where loads act, shape (wet,)
+    laplace: ComplexMatrix  # A on the free unknowns
+    mass: ComplexMatrix  # M on the free unknowns
+    loads: np.ndarray  # F, own entries of the free unknowns, shape (body unknowns, own free unknowns)
+    # returns the derivatives of A and M with respect to the angle α of the complex scaling
     turning: Callable[[], tuple[ComplexMatrix, ComplexMatrix]]
 
     @property

@@ -34,51 +34,31 @@ _ALONG_ARC = 25
 
 @dataclass(frozen=True, kw_only=True)
 class MovingSolid:
-    """A rigid body about the axis that moves in the waves.
+    """A rigid body about the axis that moves in the waves."""
 
-    Attributes:
-        outline: r and z of its section from its contour, r ≥ 0, closed by the axis unless it is a ring, m, shape
-            (points, 2).
-        surge: complex, m per metre of elevation.
-        heave: likewise.
-        pitch: rad per metre of elevation, about `centre`.
-        centre: height of the centre of mass, m.
-    """
-
+    # r and z of its section from its contour, r ≥ 0, closed by the axis unless it is a ring, m, shape (points, 2)
     outline: np.ndarray
-    surge: complex = 0.0
-    heave: complex = 0.0
-    pitch: complex = 0.0
-    centre: float = 0.0
+    surge: complex = 0.0  # complex, m per metre of elevation
+    heave: complex = 0.0  # likewise
+    pitch: complex = 0.0  # rad per metre of elevation, about `centre`
+    centre: float = 0.0  # height of the centre of mass, m
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlanWaves:
-    """The elevation around solids of revolution, and of round plates, in waves towards +x, per unit of theirs.
+    """The elevation around solids of revolution, and of round plates, in waves towards +x, per unit of theirs."""
 
-    Attributes:
-        name: name of its files.
-        title: one line of text.
-        omega: ω, rad/s.
-        radii: r, m, ascending, shape (points,); between free surfaces there are bodies.
-        wavenumber: k, 1/m.
-        phase_at: x at which the crest of the incident wave is at t = 0, m.
-        orders: the scattered and radiated waves of each azimuthal order, complex, shape (orders, points).
-        waterplanes: inner and outer radius of each rigid body in the water, m.
-        plates: radii of each elastic plate, m, shape (points,), and Wₙ there, complex, shape (orders, points).
-        solids: the rigid bodies.
-    """
-
-    name: str
-    title: str
-    omega: float
-    radii: np.ndarray
-    wavenumber: float
-    phase_at: float
-    orders: np.ndarray
-    waterplanes: tuple[tuple[float, float], ...]
+    name: str  # name of its files
+    title: str  # one line of text
+    omega: float  # ω, rad/s
+    radii: np.ndarray  # r, m, ascending, shape (points,); between free surfaces there are bodies
+    wavenumber: float  # k, 1/m
+    phase_at: float  # x at which the crest of the incident wave is at t = 0, m
+    orders: np.ndarray  # the scattered and radiated waves of each azimuthal order, complex, shape (orders, points)
+    waterplanes: tuple[tuple[float, float], ...]  # inner and outer radius of each rigid body in the water, m
+    # radii of each elastic plate, m, shape (points,), and Wₙ there, complex, shape (orders, points)
     plates: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
-    solids: tuple[MovingSolid, ...] = ()
+    solids: tuple[MovingSolid, ...] = ()  # the rigid bodies
 
     def elevation(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the complex elevation of water and plates at places, NaN in rigid bodies and beyond the largest

@@ -20,7 +20,6 @@ class PlateModes:
     """The dry modes of one round plate, with further ones.
 
     Args:
-        basin: the basin.
         pencil: the problem of one azimuthal order.
         attachments: in SI units.
         wavenumber: largest wavenumber of incident waves, in units of the basin.

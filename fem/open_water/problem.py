@@ -20,21 +20,14 @@ _ROUGH = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class OpenWaterProblem:
-    """Bodies in open water.
+    """Bodies in open water."""
 
-    Attributes:
-        comm: MPI communicator.
-        tank: open water in SI units, with at least one body.
-        tolerance: largest relative error that is accepted.
-        bands: lowest and highest frequency of each analysis, rad/s.
-        solvers: the last solver of each azimuthal order, of sections order 0, with what it was made for: several
-            analyses of the same frequencies share it.
-    """
-
-    comm: MPI.Comm
-    tank: Tank
-    tolerance: float
-    bands: tuple[tuple[float, float], ...] = ()
+    comm: MPI.Comm  # MPI communicator
+    tank: Tank  # open water in SI units, with at least one body
+    tolerance: float  # largest relative error that is accepted
+    bands: tuple[tuple[float, float], ...] = ()  # lowest and highest frequency of each analysis, rad/s
+    # the last solver of each azimuthal order, of sections order 0, with what it was made for: several analyses of the
+    # same frequencies share it
     solvers: dict[int, Any] = field(default_factory=dict, compare=False, repr=False)
 
     def of_order(self, order: int) -> OpenWaterProblem:

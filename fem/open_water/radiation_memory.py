@@ -33,6 +33,7 @@ from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference, reported_shapes
 from hydroelastic.fem.open_water.ray import Ray, hydrodynamics_along_ray
+from hydroelastic.fem.open_water.requests import ImpulseResponseRequest
 from hydroelastic.fem.open_water.results import Complexes, Floats
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, sweep
@@ -48,6 +49,7 @@ from hydroelastic.fem.time_domain.radiation_memory import (
     motion_sizes,
     ray_radii,
 )
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable
 from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
@@ -96,25 +98,15 @@ _LOWER = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class WaterMemory:
-    """The memory of the water around bodies. Shapes: m motions, c frequencies.
+    """The memory of the water around bodies. Shapes: m motions, c frequencies."""
 
-    Attributes:
-        memory: the exponentials and a∞, SI units per metre of width.
-        dofs: m degrees of freedom.
-        omega: frequencies of the check, rad/s, shape (c,).
-        hydrodynamic: a + i b/ω there, not by the memory, shape (c, m, m).
-        model: the field model.
-        error: estimated relative error of H on the ray and of a∞.
-        tail: b beyond the last frequency.
-    """
-
-    memory: RadiationMemory
-    dofs: tuple[Dof, ...]
-    omega: Floats
-    hydrodynamic: Complexes
-    model: OpenModel
-    error: float
-    tail: DampingTail
+    memory: RadiationMemory  # the exponentials and a∞, SI units per metre of width
+    dofs: tuple[Dof, ...]  # m degrees of freedom
+    omega: Floats  # frequencies of the check, rad/s, shape (c,)
+    hydrodynamic: Complexes  # a + i b/ω there, not by the memory, shape (c, m, m)
+    model: OpenModel  # the field model
+    error: float  # estimated relative error of H on the ray and of a∞
+    tail: DampingTail  # b beyond the last frequency
 
     @property
     def by_memory(self) -> Complexes:
@@ -405,3 +397,38 @@ def _least_power(body: Body) -> float:
             x, y = points[1] - points[0]
             angles.append(acos(outwards * float(x / np.hypot(x, y))))
     return 2.0 * pi / max(angles) - 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImpulseResponseSolution:
+    """Result of an impulse response analysis."""
+
+    table: ImpulseResponseTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error of H, that of causality among them
+    highest: float  # the frequency beyond which damping is not solved for, rad/s
+
+
+def solve_impulse_response(request: ImpulseResponseRequest, water: WaterMemory) -> ImpulseResponseSolution:
+    """Return the impulse responses of radiation, by the memory of the water."""
+    times = np.array(request.times)
+    errors = water.impulse_response_errors(times)
+    table = ImpulseResponseTable(
+        times=times,
+        dofs=water.dofs,
+        impulse_response=water.memory.impulse_response(times),
+        infinite_frequency_added_mass=water.memory.infinite_frequency_added_mass,
+        omega=water.omega,
+        added_mass=water.memory.added_mass(water.omega),
+        radiation_damping=water.memory.radiation_damping(water.omega),
+        causality_error=water.causality_error,
+        ogilvie_error=water.ogilvie_error,
+        impulse_response_error=errors,
+        relative_error=max(water.error, float(errors.max())),
+    )
+    return ImpulseResponseSolution(
+        table=table,
+        model=water.model,
+        error=max(water.error, float(water.causality_error.max())),
+        highest=water.tail.highest,
+    )

@@ -76,19 +76,12 @@ class Ray:
 
 @dataclass(frozen=True, kw_only=True)
 class RayMotion:
-    """The integral at one resolution, dimensionless. Shapes: n times, m body unknowns.
+    """The integral at one resolution, dimensionless. Shapes: n times, m body unknowns."""
 
-    Attributes:
-        motion: body unknowns, shape (n, m).
-        errors: error of the largest motion, by cause, each of shape (n,).
-        slow: lim b/ω for ω → 0, shape (m, m); ``None`` over a bed.
-        solved: number of frequencies that were solved by a factorization.
-    """
-
-    motion: np.ndarray
-    errors: FrequencyErrors
-    slow: np.ndarray | None
-    solved: int
+    motion: np.ndarray  # body unknowns, shape (n, m)
+    errors: FrequencyErrors  # error of the largest motion, by cause, each of shape (n,)
+    slow: np.ndarray | None  # lim b/ω for ω → 0, shape (m, m); ``None`` over a bed
+    solved: int  # number of frequencies that were solved by a factorization
 
 
 def ray_between(resonances: list[complex]) -> Ray:
@@ -104,7 +97,6 @@ class RayIntegral:
     """The integral for one model.
 
     Args:
-        model: the problem.
         limit: a(∞) in units of the model, shape (m, m).
         initial: a₀ in body unknowns, shape (m,).
         ray: path of integration.

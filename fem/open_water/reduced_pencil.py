@@ -27,17 +27,11 @@ _NO_RESPONSE = 1e-8
 
 @dataclass(frozen=True, kw_only=True)
 class LoadProducts:
-    """Products of loads f on the surfaces of bodies with each other and with a basis V.
+    """Products of loads f on the surfaces of bodies with each other and with a basis V."""
 
-    Attributes:
-        loads: f on `OpenPencil.wet`, shape (loads, wet).
-        by_basis: fᵀV, and the products of D⁻¹AV̄ and D⁻¹MV̄ with f, shape (3, basis, loads).
-        gram: f̄D⁻¹f, shape (loads, loads).
-    """
-
-    loads: np.ndarray
-    by_basis: np.ndarray
-    gram: np.ndarray
+    loads: np.ndarray  # f on `OpenPencil.wet`, shape (loads, wet)
+    by_basis: np.ndarray  # fᵀV, and the products of D⁻¹AV̄ and D⁻¹MV̄ with f, shape (3, basis, loads)
+    gram: np.ndarray  # f̄D⁻¹f, shape (loads, loads)
 
     @property
     def projected(self) -> np.ndarray:
@@ -48,9 +42,6 @@ class LoadProducts:
 
 class ReducedPencil:
     """A basis that grows by solutions, and the pencil projected on it.
-
-    Args:
-        pencil: the problem.
 
     Attributes:
         size: number of basis vectors.

@@ -15,17 +15,11 @@ _ABOVE_THE_AXIS = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class Region:
-    """Region in which resonances are sought: lowest < Re ω < highest, −Im ω < damping · Re ω.
+    """Region in which resonances are sought: lowest < Re ω < highest, −Im ω < damping · Re ω."""
 
-    Attributes:
-        lowest: lower limit of Re ω, rad/s, positive.
-        highest: upper limit of Re ω, rad/s.
-        damping: largest −Im ω/Re ω.
-    """
-
-    lowest: float
-    highest: float
-    damping: float
+    lowest: float  # lower limit of Re ω, rad/s, positive
+    highest: float  # upper limit of Re ω, rad/s
+    damping: float  # largest −Im ω/Re ω
 
     def holds(self, omega: complex) -> bool:
         """Whether a frequency in rad/s lies in the region."""

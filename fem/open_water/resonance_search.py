@@ -37,25 +37,15 @@ _MOST_STEPS = 12
 
 @dataclass(frozen=True, kw_only=True)
 class Eigenpair:
-    """An eigenvalue of the pencil.
-
-    Attributes:
-        eigenvalue: λ = ω².
-        bodies: a, on every process, shape (body unknowns,).
-        potential: ψ on own free unknowns, shape (free unknowns,).
-        norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − iωB − λM_b]].
-        drift: |dλ/dα|/|λ|.
-        participation: |λaᵀM_b a|/|λ xᵀT'x|, zero for resonances of the water around bodies at rest.
-        residual: relative: of the first equation as SLEPc leaves it, or the last step of Newton's method.
-    """
+    """An eigenvalue of the pencil."""
 
     eigenvalue: complex
-    bodies: np.ndarray
-    potential: np.ndarray
-    norm: complex
-    drift: float
-    participation: float
-    residual: float
+    bodies: np.ndarray  # a, on every process, shape (body unknowns,)
+    potential: np.ndarray  # ψ on own free unknowns, shape (free unknowns,)
+    norm: complex  # xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − iωB − λM_b]]
+    drift: float  # |dλ/dα|/|λ|
+    participation: float  # |λaᵀM_b a|/|λ xᵀT'x|, zero for resonances of the water around bodies at rest
+    residual: float  # relative: of the first equation as SLEPc leaves it, or the last step of Newton's method
 
 
 class ResonanceSearch:

@@ -1,54 +1,72 @@
-"""Bodies in waves: motions, deflection of beams, reflection and transmission over the frequency, in SI units."""
+"""Bodies in waves: motions, deflection of beams, reflection and transmission over the frequency, in SI units.
+
+Peaks of a response between the frequencies at which it was computed, which its curve does not resolve.
+
+Bodies and liquid on the reduced basis of a sweep are a small linear pencil in ω²; its eigenvalues near the real axis
+are the frequencies at which the response may change faster than the curve shows. The response there, on the same basis,
+is compared with the straight line between the two neighbours on the curve.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from itertools import pairwise
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from mpi4py import MPI
+from numpy.polynomial.legendre import leggauss, legvander
 from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
 
+from hydroelastic.fem.cells import nearest_in_cells
+from hydroelastic.fem.facets import FacetGroup, facet_groups
+from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import Curves, refined_curves
 from hydroelastic.fem.open_water.drift_errors import drift_errors
 from hydroelastic.fem.open_water.drift_of_orders import wave_errors
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.incident_waves import direction_of
+from hydroelastic.fem.open_water.functional_errors import dual_motions, functional_errors
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.response_errors import load_errors, response_errors
 from hydroelastic.fem.open_water.response_table import ResponseErrors, response_table
-from hydroelastic.fem.open_water.results import Largest, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import Complexes, Floats, HullPressure, Largest, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
-from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
+from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.tank.attempts import Attempt
-from hydroelastic.fem.tank.error_estimates import joined_errors
-from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.tank.error_estimates import boundary_error, joined_errors
+from hydroelastic.fem.tank.resolution import Resolution, rounding_error
+from hydroelastic.physics.contours import points_along
 
 # Largest part of a motion by which its drawn curve may miss it.
 _DRAWN = 1e-3
 
+# Points of a facet by which the cells nearest to a given point are chosen, and how many of them.
+_NEAR, _CANDIDATES = np.linspace(0.0, 1.0, 9)[:, None], 3
+
+# Least difference of a peak from the line between its neighbours, relative to the largest value of the curve.
+_DIFFERS = 0.1
+
+# Name of a quantity, its magnitudes on the curve and at the peaks, and what is large for it.
+_Curve: TypeAlias = tuple[str, Floats, Floats, float]
+
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseSolution:
-    """Result of a response analysis.
+    """Result of a response analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest relative error.
-        wave_errors: about an axis errors of the amplitudes of waves, see `drift_of_orders`, shape (n, 3).
-        curves: responses between more than six frequencies, to be drawn.
-    """
-
-    table: ResponseTable
-    model: OpenModel
-    error: float
-    wave_errors: np.ndarray
-    curves: Curves | None = None
+    table: ResponseTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error
+    wave_errors: np.ndarray  # about an axis errors of the amplitudes of waves, see `drift_of_orders`, shape (n, 3)
+    curves: Curves | None = None  # responses between more than six frequencies, to be drawn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,7 +213,6 @@ def _of_basis(
 def _on_hulls(request: ResponseRequest, solutions: list[OpenResponse], reduced: np.ndarray) -> dict[str, Any]:
     """Pressures along hulls, and of sections in one liquid the drift force by the field beside the bodies,
     with the relative errors by the reduced basis (collective)."""
-    from hydroelastic.fem.open_water.hull import hull_pressure
 
     tank, units = solutions[0].model.basin.tank, solutions[0].model.basin.units
     hulls = [index for index, hull in tank.hulls.items() if not hull.is_thin]
@@ -237,3 +254,195 @@ def outcome(solution: OpenResponse) -> np.ndarray:
     incident = elevations[solution.incident]
     waves = solution.outgoing() * elevations[:, None] / incident
     return np.vstack([waves, (solution.motions / incident[:, None]).T])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Places:
+    """Points of a hull on this process: their numbers among all, where they are, and their cells with points of the
+    reference cell."""
+
+    numbers: np.ndarray
+    points: np.ndarray
+    cells: np.ndarray
+    reference: np.ndarray
+
+
+def hull_pressure(
+    responses: list[OpenResponse],
+    reduced: np.ndarray,
+    index: int,
+    towards: int = RIGHTWARD,
+) -> HullPressure:
+    """Return the pressure ρω²Ψ along the hull of a float from the left to the right (collective).
+
+    Its error is the part of ψ in the highest polynomial on the worst facet, which that of the field is below where the
+    degree is high enough; beside it that of the resultants of the pressure, over the surface on which they act, and
+    the relative ones by the reduced basis, the shape of the hull and rounding. The waves far away have larger errors:
+    in long waves a body follows the water, and hardly changes the pressure in it.
+    """
+    model = responses[0].model
+    units, comm = model.basin.units, model.pencil.comm
+    weight, origin = units.density * units.gravity, np.array([model.basin.origin, 0.0])
+    hull = model.basin.tank.hulls[index]
+    arcs = (*hull.below, *hull.above)
+    scaled = np.vstack([points_along(arcs), [arcs[-1].end]])
+    points, places = units.length * scaled + origin, _nearest(model, index, scaled)
+    values = np.zeros((len(responses), len(responses[0].incident), len(points)), dtype=complex)
+    rough = np.zeros(values.shape[:2])
+    for row, response in enumerate(responses):
+        for number in range(len(response.incident)):
+            values[row, number, places.numbers], rough[row, number] = _pressures(
+                response, index, number, towards, places
+            )
+    comm.Allreduce(MPI.IN_PLACE, values)
+    comm.Allreduce(MPI.IN_PLACE, rough, op=MPI.MAX)
+    smooth = np.array([_of_resultants(one, index, towards) for one in responses])
+    relative = reduced + boundary_error(model.pencil.liquid.tank, model.basin.tank)
+    relative += 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))
+    return HullPressure(
+        body=index,
+        points=points,
+        pressure=np.asarray(weight * values),
+        pressure_error=weight * (rough + smooth + relative[:, None] * np.abs(values).max(axis=2)),
+    )
+
+
+def _of_resultants(response: OpenResponse, index: int, towards: int) -> np.ndarray:
+    """Largest error of a resultant of the pressure on a float, per elevation and over ∫ρ|φᵢ|, shape (incident,).
+
+    The resultants are the forces K − iωB − λM_b that the motions need, but for those of the incident wave.
+    """
+    model, first = response.model, sum(body.size for body in response.model.pencil.bodies[:index])
+    surface = model.wetted[index]
+    areas = surface.integrals(np.abs(surface.shapes), np.ones((1, len(surface.points))))[:, :1].real
+    needed = (model.restoring(response.squared) - response.squared * model.mass)[first : first + len(areas)]
+    away, tips = functional_errors(response, dual_motions(response, needed))
+    found: np.ndarray = np.abs(response.per_elevation(towards)) * ((away + tips) / areas).max(axis=0, initial=0.0)
+    return found
+
+
+def _groups(model: OpenModel, index: int) -> Iterator[FacetGroup]:
+    return facet_groups(model.pencil.liquid, model.pencil.bodies[index].surface)
+
+
+def _nearest(model: OpenModel, index: int, points: np.ndarray) -> _Places:
+    """The nearest points of the cells beside a hull to given points, each on one process (collective)."""
+    comm, mesh = model.pencil.comm, model.pencil.liquid.tank.mesh
+    away, cells, reference = np.full(len(points), np.inf), np.zeros(len(points), dtype=int), np.zeros((len(points), 2))
+    for group in _groups(model, index):
+        near = group.physical_points(group.reference_points(_NEAR)).reshape(-1, 2)
+        for candidates in cKDTree(near).query(points, min(_CANDIDATES, len(near)))[1].T:
+            own = group.cells[candidates // len(_NEAR)]
+            at, distance = nearest_in_cells(mesh, own, points)
+            nearer = distance < away
+            away[nearer], cells[nearer], reference[nearer] = distance[nearer], own[nearer], at[nearer]
+    numbers = np.flatnonzero(np.argmin(comm.allgather(away), axis=0) == comm.rank)
+    return _Places(numbers=numbers, points=points[numbers], cells=cells[numbers], reference=reference[numbers])
+
+
+def _pressures(
+    response: OpenResponse, index: int, incident: int, towards: int, places: _Places
+) -> tuple[np.ndarray, float]:
+    """The pressure per elevation at points of this process, and its part in the highest polynomial."""
+    model = response.model
+    pencil, liquid = model.pencil, model.pencil.liquid
+    scattered = response.scattered[incident]
+    real, imaginary = (
+        function.x.array
+        for function in as_functions(liquid, [pencil.vector(part) for part in (scattered.real, scattered.imag)])
+    )
+    plane = response.incidence.planes[response.incident[incident]]
+    per_elevation = response.squared * response.per_elevation(towards)[incident]
+    psi = per_elevation * (real + 1j * imaginary)
+    # The densities of the model have the factor of the azimuthal order.
+    densities = np.array([layer.density for layer in liquid.layers]) / model.basin.tank.geometry.measure
+    nodes, weights = leggauss(liquid.degree + 1)
+    highest = (liquid.degree + 0.5) * weights * legvander(nodes, liquid.degree)[:, -1]
+    rough = 0.0
+    for group in _groups(model, index):
+        dofs = liquid.space.dofmap.list[group.cells]
+        density = densities[liquid.layer_of[dofs[:, :1]]]
+        along = density * (psi[dofs] @ potential_basis(liquid, group.reference_points(0.5 * (nodes[:, None] + 1.0))).T)
+        rough = max(rough, float(np.abs(along @ highest).max(initial=0.0)))
+    dofs = liquid.space.dofmap.list[places.cells]
+    layers = liquid.layer_of[dofs[:, 0]]
+    basis = potential_basis(liquid, places.reference).reshape(dofs.shape)
+    incoming = per_elevation * plane.field(places.points, layers)[0]
+    return densities[layers] * ((basis * psi[dofs]).sum(axis=1) + incoming), rough
+
+
+def unresolved_peaks(
+    table: ResponseTable, resonances: Complexes, between: Callable[[Floats], ResponseTable]
+) -> tuple[UnresolvedPeak, ...]:
+    """Return the largest of the peaks between each two frequencies, by ascending frequency."""
+    omegas = np.sort(table.omega)
+    probed = np.array(list(_narrow(omegas, resonances)))
+    if not probed.size:
+        return ()
+    peaks = between(probed)
+    # Peaks of motions replace those of waves between the same frequencies.
+    worst = _worst(probed, table.omega, _ratios(table, peaks)) | _worst(probed, table.omega, _motions(table, peaks))
+    return tuple(worst[below] for below in sorted(worst))
+
+
+def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, UnresolvedPeak]:
+    """The largest peak between each two frequencies, by the lower one."""
+    order = np.argsort(omegas)
+    ordered = omegas[order]
+    changes: dict[float, float] = {}
+    worst: dict[float, UnresolvedPeak] = {}
+    for quantity, shown, found, scale in curves:
+        drawn = np.interp(probed, ordered, shown[order])
+        for omega, value, line in zip(probed, found, drawn, strict=True):
+            place = int(np.searchsorted(ordered, omega))
+            below, above = float(ordered[place - 1]), float(ordered[place])
+            change = abs(value - line) / max(scale, value)
+            if change > changes.get(below, _DIFFERS):
+                changes[below] = change
+                worst[below] = UnresolvedPeak(
+                    below=below,
+                    above=above,
+                    omega=float(omega),
+                    quantity=quantity,
+                    value=float(value),
+                    drawn=float(line),
+                )
+    return worst
+
+
+def _narrow(omegas: Floats, resonances: Complexes) -> Iterator[float]:
+    """Frequencies of resonances that are narrower than the distance of their neighbours on the curve."""
+    for below, above in pairwise(omegas):
+        inside = (resonances.real > below) & (resonances.real < above) & (np.abs(resonances.imag) < above - below)
+        yield from np.unique(resonances.real[inside])
+
+
+def _motions(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
+    turns = np.array([dof.is_rotation for dof in table.dofs], dtype=bool)
+    sizes = np.abs(table.amplitudes)
+    for incident, wave in enumerate(table.waves):
+        for place, dof in enumerate(table.dofs):
+            # Motions are compared with the largest one of the same unit.
+            scale = float(sizes[:, incident, turns == turns[place]].max())
+            found = np.abs(peaks.amplitudes[:, incident, place])
+            yield dof + _of(table, wave), sizes[:, incident, place], found, scale
+
+
+def _ratios(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
+    if table.reflection is None or table.transmission is None:
+        return
+    assert peaks.reflection is not None
+    assert peaks.transmission is not None
+    for name, shown, found in (
+        ("|R|", np.abs(table.reflection), np.abs(peaks.reflection)),
+        ("|T|", np.abs(table.transmission), np.abs(peaks.transmission)),
+    ):
+        for incident, wave in enumerate(table.waves):
+            for outgoing, left in enumerate(table.waves):
+                label = f"{name} {left}{_of(table, wave)}" if len(table.waves) > 1 else name
+                curve = shown[:, incident, outgoing]
+                yield label, curve, found[:, incident, outgoing], float(curve.max())
+
+
+def _of(table: ResponseTable, wave: str) -> str:
+    return f" in {wave} waves" if len(table.waves) > 1 else ""

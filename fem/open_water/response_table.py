@@ -20,19 +20,12 @@ from hydroelastic.physics.attachments import REGULAR
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseErrors:
-    """Errors of responses at n frequencies.
+    """Errors of responses at n frequencies."""
 
-    Attributes:
-        total: of motions and waves, relative to the incident wave, shape (n,).
-        reduced: those by the reduced basis alone, shape (n,).
-        drift: of the drift force per |c|², in units of the basin, shape (n, incident).
-        of_loads: see `load_errors`.
-    """
-
-    total: np.ndarray
-    reduced: np.ndarray
-    drift: np.ndarray
-    of_loads: dict[int, np.ndarray] = field(default_factory=dict)
+    total: np.ndarray  # of motions and waves, relative to the incident wave, shape (n,)
+    reduced: np.ndarray  # those by the reduced basis alone, shape (n,)
+    drift: np.ndarray  # of the drift force per |c|², in units of the basin, shape (n, incident)
+    of_loads: dict[int, np.ndarray] = field(default_factory=dict)  # see `load_errors`
 
 
 def response_table(

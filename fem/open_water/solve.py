@@ -13,12 +13,18 @@ import numpy as np
 
 from hydroelastic.fem.kept_tolerance import excess, kept_tolerance
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
-from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
 from hydroelastic.fem.open_water.irregular_results import SpectrumTable
 from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
+from hydroelastic.fem.open_water.orders import solve_by_order
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.radiation_memory import Memory, WaterMemory, solve_memory
+from hydroelastic.fem.open_water.radiation_memory import (
+    ImpulseResponseSolution,
+    Memory,
+    WaterMemory,
+    solve_impulse_response,
+    solve_memory,
+)
 from hydroelastic.fem.open_water.requests import (
     OVER_TIME,
     DecayRequest,
@@ -63,29 +69,17 @@ _Table: TypeAlias = (
 
 @dataclass(frozen=True, kw_only=True)
 class OpenWaterSolution:
-    """The tables of all analyses, in the order in which they were requested.
+    """The tables of all analyses, in the order in which they were requested."""
 
-    Attributes:
-        radiation: one for each radiation analysis.
-        response: one for each response analysis.
-        resonance: one for each resonance analysis.
-        decay: one for each decay analysis.
-        spectrum: one for each spectrum analysis.
-        impulse_response: one for each impulse response analysis.
-        motion: one for each motion analysis.
-        size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
-        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
-    """
-
-    radiation: tuple[RadiationTable, ...] = ()
-    response: tuple[ResponseTable, ...] = ()
-    resonance: tuple[ResonanceTable, ...] = ()
-    decay: tuple[DecayTable, ...] = ()
-    spectrum: tuple[SpectrumTable, ...] = ()
-    impulse_response: tuple[ImpulseResponseTable, ...] = ()
-    motion: tuple[MotionTable, ...] = ()
-    size: dict[str, int]
-    reasons: tuple[str, ...] = ()
+    radiation: tuple[RadiationTable, ...] = ()  # one for each radiation analysis
+    response: tuple[ResponseTable, ...] = ()  # one for each response analysis
+    resonance: tuple[ResonanceTable, ...] = ()  # one for each resonance analysis
+    decay: tuple[DecayTable, ...] = ()  # one for each decay analysis
+    spectrum: tuple[SpectrumTable, ...] = ()  # one for each spectrum analysis
+    impulse_response: tuple[ImpulseResponseTable, ...] = ()  # one for each impulse response analysis
+    motion: tuple[MotionTable, ...] = ()  # one for each motion analysis
+    size: dict[str, int]  # "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved
+    reasons: tuple[str, ...] = ()  # why the solution does not keep the tolerance or is incomplete; empty if it does
 
     @property
     def status(self) -> Literal["ok", "unconverged"]:
@@ -153,8 +147,6 @@ def _solved(problem: OpenWaterProblem, request: Request, memory: Memory) -> _Sol
     if isinstance(request, SpectrumRequest):
         return solve_spectrum(problem, request)
     if problem.tank.geometry.is_revolved:
-        from hydroelastic.fem.open_water.orders import solve_by_order
-
         return solve_by_order(problem, request, memory)
     match request:
         case RadiationRequest():

@@ -35,7 +35,6 @@ class OpenSolver:
     """Solves one model; frequencies ω in rad/s.
 
     Args:
-        model: the problem.
 
     Attributes:
         model: the problem.

@@ -3,6 +3,12 @@
 A reduced basis serves the whole band of the spectrum, and gives motions at as many frequencies as their curves need.
 Drag is replaced by linear damping of least mean square difference, from the standard deviation of the velocities along
 it, with the equations of motion at these frequencies; see `physics/attachments.py`, `physics/irregular_waves.py`.
+
+How many azimuthal orders, and which mesh, the loads of round plates in irregular waves need.
+
+Short waves bend a plate of radius a in all orders up to ka, and in higher ones hardly at all: orders are added until
+those left out change the spectra of deflection, bending moment and shear force by a small part of the tolerance. Which
+error the mesh leaves in loads is known from the first orders.
 """
 
 from __future__ import annotations
@@ -15,24 +21,27 @@ from itertools import count
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.bodies.round_plate import plate_of
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import Curves, certified_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, direction_of
 from hydroelastic.fem.open_water.irregular_results import AirGap, IrregularResponse, SpectrumTable
-from hydroelastic.fem.open_water.plate_orders import bent_in_order, meshed_errors, orders_left_out
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import incident_places, outcome
 from hydroelastic.fem.open_water.response_errors import response_errors
+from hydroelastic.fem.open_water.results import Floats, RoundDeflection
+from hydroelastic.fem.open_water.round_plates import bent_by, deflections_of_order, joined, left_out, radii_along
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.spectrum_drift import mean_drift, mean_power, reflected_drift
 from hydroelastic.fem.open_water.spectrum_rows import (
     air_gaps_of_plates,
     along_plates,
     estimated_about_peaks,
+    meshed_load_errors,
     motion_errors,
     order_of_motions,
     points_of_plates,
@@ -52,6 +61,7 @@ from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.attachments import IRREGULAR
 from hydroelastic.physics.irregular_waves import moments, statistics
+from hydroelastic.physics.tank import Tank
 
 # Frequencies at first.
 _FIRST = 33
@@ -70,20 +80,17 @@ _HALVINGS = 3
 # contribute to an elevation.
 _FIXED, _LEFT_OUT = 1e-4, 0.1
 
+# Points along a diameter.
+_POSITIONS = 15
+
 
 @dataclass(frozen=True, kw_only=True)
 class SpectrumSolution:
-    """Result of a spectrum analysis.
+    """Result of a spectrum analysis."""
 
-    Attributes:
-        table: the results in SI units.
-        model: the last field model.
-        error: the largest relative error, of transfer functions or of statistics.
-    """
-
-    table: SpectrumTable
-    model: OpenModel
-    error: float
+    table: SpectrumTable  # the results in SI units
+    model: OpenModel  # the last field model
+    error: float  # the largest relative error, of transfer functions or of statistics
 
 
 def solve_spectrum(
@@ -372,3 +379,57 @@ def _with_drag(request: SpectrumRequest, curves: list[Curves]) -> tuple[np.ndarr
 
     damping = whole.equivalent_damping(speeds, IRREGULAR) if len(whole.drag) else np.zeros_like(whole.damping)
     return damping, IRREGULAR * whole.drag * speeds(damping), moved(damping)
+
+
+def bent_in_order(
+    tank: Tank, request: SpectrumRequest, curves: Curves, omegas: Floats, *, with_errors: bool = False
+) -> list[RoundDeflection]:
+    """Return the deflection of each round plate in an order at some of its frequencies, without drag (collective)."""
+    model, places = curves.solver.model, np.searchsorted(curves.omegas, omegas)
+    responses = [curves.responses[place] for place in places]
+    of_loads = meshed_load_errors(curves) if with_errors else {}
+    moved = [(one.motions, np.zeros((len(one.motions), len(model.outside.drag)))) for one in responses]
+    return list(
+        deflections_of_order(
+            model,
+            responses,
+            moved,
+            direction_of(request.waves_from),
+            np.zeros(len(omegas)),
+            {index: values[places] for index, values in of_loads.items()},
+            lambda index: radii_along(tank, index, _POSITIONS),
+        )
+    )
+
+
+def meshed_errors(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: list[list[RoundDeflection]]) -> float:
+    """Return the errors that the mesh leaves in loads, relative to the largest of each; the arguments are those of
+    `orders_left_out`, of some of the orders, with errors."""
+    largest = [0.0]
+    for parts in zip(*bent, strict=True):
+        found = joined(list(parts))
+        loads = bent_by(plate_of(tank.bodies[found.body]), found.radii, found.derivatives, np.arange(len(bent)))
+        for values, errors in zip(loads, found.uncertain, strict=True):
+            largest.append(_part(request, omegas, values, errors.sum(axis=-1)))
+    return max(largest)
+
+
+def _part(request: SpectrumRequest, omegas: Floats, orders: np.ndarray, missing: np.ndarray) -> float:
+    """Significant amplitude of what is missing, shape (n, 1), over the largest of a sum of orders, shape (n, 1,
+    orders, points)."""
+    size, left = (
+        np.sqrt(moments(request.spectrum, omegas, transfer.astype(complex), (0,))[0].max())
+        for transfer in (orders.sum(axis=-2)[:, 0], missing)
+    )
+    return float(left / max(size, np.finfo(float).tiny))
+
+
+def orders_left_out(tank: Tank, request: SpectrumRequest, omegas: Floats, bent: list[list[RoundDeflection]]) -> float:
+    """Return what the orders left out change deflections and loads by, relative to the largest of each."""
+    orders, largest = np.arange(len(bent)), [0.0]
+    for parts in zip(*bent, strict=True):
+        found = joined(list(parts))
+        plate = plate_of(tank.bodies[found.body])
+        loads = bent_by(plate, found.radii, found.derivatives, orders)[: 2 * bool(plate.flexural_rigidity)]
+        largest += [_part(request, omegas, values, left_out(values)) for values in (found.derivatives[0], *loads)]
+    return max(largest)

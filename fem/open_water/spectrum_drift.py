@@ -31,17 +31,11 @@ _LEFT_OUT, _LEAST = 0.25, 1e-5
 
 @dataclass(frozen=True, kw_only=True)
 class MeanDrift:
-    """The mean drift force along x in irregular waves, N/m, or of solids N; NaN about an axis in waves on two levels.
+    """The mean drift force along x, N/m, or of solids N; NaN about an axis in waves on two levels."""
 
-    Attributes:
-        force: its mean.
-        error: by its values at the frequencies and by their distances.
-        truncation: error by the waves beyond the last frequency.
-    """
-
-    force: float
-    error: float
-    truncation: float
+    force: float  # its mean
+    error: float  # by its values at the frequencies and by their distances
+    truncation: float  # error by the waves beyond the last frequency
 
 
 def mean_drift(

@@ -36,35 +36,23 @@ _RECENT = 6
 
 @dataclass(frozen=True, kw_only=True)
 class Problem(Generic[Solution]):
-    """Functions that a sweep needs of a problem.
+    """Functions that a sweep needs of a problem."""
 
-    Attributes:
-        full: solves at a frequency by a factorization, and adds the solution to the basis.
-        reduced: returns the solution at a frequency on the basis, and its relative residual.
-        difference: relative difference of a solution on the basis and the full one.
-    """
-
-    full: Callable[[complex], Solution]
+    full: Callable[[complex], Solution]  # solves at a frequency by a factorization, and adds the solution to the basis
+    # returns the solution at a frequency on the basis, and its relative residual
     reduced: Callable[[complex], tuple[Solution, float]]
-    difference: Callable[[Solution, Solution], float]
+    difference: Callable[[Solution, Solution], float]  # relative difference of a solution on the basis and the full one
 
 
 @dataclass(frozen=True, kw_only=True)
 class Swept(Generic[Solution]):
-    """Solutions at all frequencies of a sweep.
+    """Solutions at all frequencies of a sweep."""
 
-    Attributes:
-        solutions: in the order of the frequencies.
-        errors: estimated relative errors by the reduced basis, shape (frequencies,); zero for full solutions.
-        in_full: whether each solution is a full one.
-        ratio: relative error over the square of the residual, with its safety factor.
-        again: returns the same at other frequencies, with further solutions in the basis where they are needed.
-    """
-
-    solutions: list[Solution]
-    errors: np.ndarray
-    in_full: list[bool]
-    ratio: float
+    solutions: list[Solution]  # in the order of the frequencies
+    errors: np.ndarray  # estimated relative errors by the reduced basis, shape (frequencies,); zero for full solutions
+    in_full: list[bool]  # whether each solution is a full one
+    ratio: float  # relative error over the square of the residual, with its safety factor
+    # returns the same at other frequencies, with further solutions in the basis where they are needed
     again: Callable[[np.ndarray], Swept[Solution]]
 
 

@@ -18,19 +18,13 @@ from hydroelastic.physics.tank import Tank
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
-    """A value by the theory and by the field solution.
+    """A value by the theory and by the field solution."""
 
-    Attributes:
-        quantity: what it is, with its unit.
-        theory: its value by the thin-float theory.
-        field: its value by the field solution.
-        difference: relative difference of the theory from the field; of a curve the largest over all frequencies or
-            times, with the values there.
-    """
-
-    quantity: str
-    theory: float
-    field: float
+    quantity: str  # what it is, with its unit
+    theory: float  # its value by the thin-float theory
+    field: float  # its value by the field solution
+    # relative difference of the theory from the field; of a curve the largest over all frequencies or times, with the
+    # values there
     difference: float
 
 

@@ -23,29 +23,18 @@ from hydroelastic.physics.string import HangingString
 
 @dataclass(frozen=True, kw_only=True)
 class StringPencil:
-    """Dimensionless matrices of a string on its free unknowns.
+    """Dimensionless matrices of a string on its free unknowns."""
 
-    Attributes:
-        string: the string, in SI units; the matrices are those of the dimensionless one.
-        space: polynomials on the line, the unknown of the upper end included.
-        degree: polynomial degree.
-        free: local indices of the owned unknowns without the upper end, shape (free unknowns,).
-        mass: M.
-        resistance: C.
-        stiffness: K.
-        mass_load: own entries of M·1, the inertia of the string that follows its upper end, shape (free unknowns,).
-        resistance_load: own entries of C·1, shape (free unknowns,).
-    """
-
-    string: HangingString
-    space: fem.FunctionSpace
-    degree: int
-    free: NDArray[np.int32]
-    mass: PETSc.Mat
-    resistance: PETSc.Mat
-    stiffness: PETSc.Mat
+    string: HangingString  # the string, in SI units; the matrices are those of the dimensionless one
+    space: fem.FunctionSpace  # polynomials on the line, the unknown of the upper end included
+    degree: int  # polynomial degree
+    free: NDArray[np.int32]  # local indices of the owned unknowns without the upper end, shape (free unknowns,)
+    mass: PETSc.Mat  # M
+    resistance: PETSc.Mat  # C
+    stiffness: PETSc.Mat  # K
+    # own entries of M·1, the inertia of the string that follows its upper end, shape (free unknowns,)
     mass_load: NDArray[np.float64]
-    resistance_load: NDArray[np.float64]
+    resistance_load: NDArray[np.float64]  # own entries of C·1, shape (free unknowns,)
 
     @property
     def comm(self) -> MPI.Comm:

@@ -16,7 +16,6 @@ class StringProbe:
     """Interpolation at some positions.
 
     Args:
-        pencil: the string.
         positions: x in units of the length, from 0 to 1, shape (positions,).
     """
 

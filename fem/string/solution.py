@@ -8,8 +8,8 @@ import numpy as np
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.string.damped_modes import damped_modes
 from hydroelastic.fem.string.end_motion import EndMotion
+from hydroelastic.fem.string.modes import damped_modes
 from hydroelastic.fem.string.response import field_response
 from hydroelastic.modal.string.solution import FreeMotions, StringSolution
 from hydroelastic.physics.string import HangingString

@@ -14,22 +14,12 @@ from hydroelastic.physics.thread import Thread
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadAnalyses:
-    """Results of all analyses of a thread.
+    """Results of all analyses of a thread."""
 
-    Attributes:
-        thread: in SI units.
-        frame: coordinates of the model.
-        rest: the equilibrium.
-        modes: of each analysis of modes.
-        stability: of each analysis of stability.
-        motions: of each analysis of motion.
-        size: cells, degree and unknowns of the equilibrium, steps of motions.
-    """
-
-    thread: Thread
-    frame: Frame
-    rest: RestingThread
-    modes: tuple[ThreadModes, ...]
-    stability: tuple[Stability, ...]
-    motions: tuple[MotionInSpace, ...]
-    size: dict[str, int]
+    thread: Thread  # in SI units
+    frame: Frame  # coordinates of the model
+    rest: RestingThread  # the equilibrium
+    modes: tuple[ThreadModes, ...]  # of each analysis of modes
+    stability: tuple[Stability, ...]  # of each analysis of stability
+    motions: tuple[MotionInSpace, ...]  # of each analysis of motion
+    size: dict[str, int]  # cells, degree and unknowns of the equilibrium, steps of motions

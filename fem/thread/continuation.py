@@ -48,17 +48,11 @@ class FoldError(ThreadSolverError):
 
 @dataclass(frozen=True)
 class RampedEquilibrium:
-    """An equilibrium and the continuation to it.
+    """An equilibrium and the continuation to it."""
 
-    Attributes:
-        equilibrium: of the thread itself.
-        ramp: name of the continuation, empty if none was needed.
-        steps: number of intermediate equilibria, failed ones included.
-    """
-
-    equilibrium: Equilibrium
-    ramp: str
-    steps: int
+    equilibrium: Equilibrium  # of the thread itself
+    ramp: str  # name of the continuation, empty if none was needed
+    steps: int  # number of intermediate equilibria, failed ones included
 
 
 def solve_with_ramps(

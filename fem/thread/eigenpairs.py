@@ -34,19 +34,12 @@ _SAME = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Eigenpair:
-    """One root with its vector.
+    """One root with its vector."""
 
-    Attributes:
-        root: λ in units of the operators, Im λ ≥ 0.
-        real: of the vector y, free unknowns.
-        imaginary: of the vector y.
-        residual: backward error.
-    """
-
-    root: complex
-    real: PETSc.Vec
-    imaginary: PETSc.Vec
-    residual: float
+    root: complex  # λ in units of the operators, Im λ ≥ 0
+    real: PETSc.Vec  # of the vector y, free unknowns
+    imaginary: PETSc.Vec  # of the vector y
+    residual: float  # backward error
 
 
 def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:

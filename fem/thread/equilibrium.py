@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,6 @@ from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
 from hydroelastic.fem.thread.newton import NewtonSolver
 from hydroelastic.fem.thread.space import ThreadSpace
@@ -22,47 +22,34 @@ from hydroelastic.physics.thread import Thread
 
 Along = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
+# Stretch whose force is the scale where no other force acts on a thread.
+_STRETCH = 1e-6
+
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """Where Newton's method begins.
+    """Where Newton's method begins."""
 
-    Attributes:
-        position: r in m at s of shape (n,), shape (n, dimension).
-        force: axial force in N at s, shape (n,).
-        curvature: r_ss in 1/m at s, shape (n, dimension); zero without it.
-    """
-
-    position: Along
-    force: Along
-    curvature: Along | None = None
+    position: Along  # r in m at s of shape (n,), shape (n, dimension)
+    force: Along  # axial force in N at s, shape (n,)
+    curvature: Along | None = None  # r_ss in 1/m at s, shape (n, dimension); zero without it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium:
-    """A thread at rest.
+    """A thread at rest."""
 
-    Attributes:
-        model: the thread, SI.
-        units: of the solution.
-        space: mesh of 0 ≤ s ≤ 1 and function spaces.
-        forms: of the thread in `units`; the stream is that at the solution.
-        solution: (r, S) or (r, S, κ) in `units`, a function in `space.mixed`.
-        fixed: prescribed unknowns, as boundary conditions.
-        newton_steps: their number.
-        stretch_response: derivative of the solution by a uniform stretch of the thread, a function in `space.mixed`;
-            none where the solution was given.
-        residual: residual of the equations at the owned unknowns; none where the solution was given.
-    """
-
-    model: Thread
-    units: Units
-    space: ThreadSpace
-    forms: ThreadForms
-    solution: Any
-    fixed: list[Any]
-    newton_steps: int
+    model: Thread  # the thread, SI
+    units: Units  # of the solution
+    space: ThreadSpace  # mesh of 0 ≤ s ≤ 1 and function spaces
+    forms: ThreadForms  # of the thread in `units`; the stream is that at the solution
+    solution: Any  # (r, S) or (r, S, κ) in `units`, a function in `space.mixed`
+    fixed: list[Any]  # prescribed unknowns, as boundary conditions
+    newton_steps: int  # their number
+    # derivative of the solution by a uniform stretch of the thread, a function in `space.mixed`; none where the
+    # solution was given
     stretch_response: Any = None
+    # residual of the equations at the owned unknowns; none where the solution was given
     residual: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
 
     @property
@@ -188,3 +175,19 @@ def _check_nodes(model: Thread, nodes: NDArray[np.float64]) -> None:
     for s in model.loads:
         if np.min(np.abs(nodes - s)) > 1e-12 * length:
             raise ValueError(f"nodes: the load at s = {s} must be at one of them")
+
+
+def force_scale(model: Thread, speed: float) -> float:
+    """The largest force that acts on a thread: |F| + k u² of a body, |w| L, (kn u + nv) u L, EI/L², ma u² if
+    reactive."""
+    reactive = 0.0 if model.reactive == "none" else model.added_mass * speed**2
+    largest = max(
+        *(float(sum(part**2 for part in body.dead_force) ** 0.5) + body.drag * speed**2 for body in model.bodies),
+        abs(model.weight) * model.length,
+        (model.normal_drag * speed + model.viscous_drag) * speed * model.length,
+        model.flexural_rigidity / model.length**2,
+        reactive,
+    )
+    if largest > 0.0 or model.axial_rigidity == inf:
+        return largest
+    return _STRETCH * model.axial_rigidity

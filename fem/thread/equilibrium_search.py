@@ -29,17 +29,11 @@ _DEGREE = 4
 
 @dataclass(frozen=True, kw_only=True)
 class FoundEquilibrium:
-    """An equilibrium and how it was found.
+    """An equilibrium and how it was found."""
 
-    Attributes:
-        solution: the field solution.
-        start: name of the start that led to it.
-        failed: why the starts before it failed.
-    """
-
-    solution: ThreadSolution
-    start: str
-    failed: tuple[str, ...]
+    solution: ThreadSolution  # the field solution
+    start: str  # name of the start that led to it
+    failed: tuple[str, ...]  # why the starts before it failed
 
 
 def find_equilibrium(comm: MPI.Comm, thread: Thread, frame: Frame, tolerance: float) -> FoundEquilibrium:

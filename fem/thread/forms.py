@@ -10,6 +10,11 @@ with τ = r_s/|r_s| and the load of the liquid per length without stretch
     q = −w e_z + kn |u_n| u_n + kt |u_t| u_t τ + nv u_n,    u_r = u − v,  u_t = u_r·τ,  u_n = u_r − u_t τ.
 
 The tension is T = S + EI |κ|². The equations are those of any consistent units.
+
+The stream at the thread: velocities and gradients at quadrature points and nodes, updated as the thread moves.
+
+A form sees u(r) as u_k + G_k (r − r_k) about the positions r_k of the last `update`: its value there and its derivative
+are exact for every profile, and one compiled form serves them all.
 """
 
 from __future__ import annotations
@@ -18,11 +23,15 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
+import basix.ufl
+import numpy as np
 import ufl
 from dolfinx import fem
+from numpy.typing import NDArray
 
+from hydroelastic.fem.kernels import compiled_expression
 from hydroelastic.fem.thread.space import ThreadSpace
-from hydroelastic.fem.thread.stream import StreamField
+from hydroelastic.physics.stream import Stream
 from hydroelastic.physics.thread import PointLoad, Thread
 
 # Regularization of speeds, of the unit of speed: √(v² + ν²) is differentiable at rest.
@@ -33,17 +42,11 @@ _STIFF = 1e6
 
 @dataclass(frozen=True)
 class ThreadState:
-    """Unknowns of a form, or test functions: functions or expressions of UFL.
+    """Unknowns of a form, or test functions: functions or expressions of UFL."""
 
-    Attributes:
-        position: r or η.
-        force: S or μ.
-        curvature: κ or ψ, of a thread that bends.
-    """
-
-    position: Any
-    force: Any
-    curvature: Any = None
+    position: Any  # r or η
+    force: Any  # S or μ
+    curvature: Any = None  # κ or ψ, of a thread that bends
 
 
 class ThreadForms:
@@ -278,3 +281,67 @@ def _lighthill(mass: Any, relative: Any, tau: Any) -> Any:
     along = ufl.inner(relative, tau)
     lag = along * tau - relative
     return mass * (along * lag + 0.5 * ufl.inner(lag, lag) * tau)
+
+
+class _Places:
+    """u and ∂u/∂r at the points of one kind of function space."""
+
+    def __init__(self, mesh: Any, element: Any, shape: tuple[int, ...], points: NDArray[np.float64]) -> None:
+        dimension = shape[0]
+        self.position = fem.Function(fem.functionspace(mesh, element(shape)))
+        self.velocity = fem.Function(self.position.function_space)
+        self.gradient = fem.Function(fem.functionspace(mesh, element((dimension, dimension))))
+        self._points = points
+        # The last position and its expression: creating an expression takes longer than evaluating it.
+        self._expression: tuple[Any, Any] = (None, None)
+
+    def update(self, position: Any, stream: Stream) -> None:
+        if self._expression[0] is not position:
+            self._expression = position, compiled_expression(position, self._points)
+        self.position.interpolate(self._expression[1])
+        dimension = self.position.function_space.dofmap.bs
+        places = self.position.x.array.reshape(-1, dimension)
+        points = np.zeros((len(places), 3))
+        axes = [0, 2] if dimension == 2 else [0, 1, 2]
+        points[:, axes] = places
+        self.velocity.x.array[:] = stream.velocity_at(points)[:, axes].ravel()
+        self.gradient.x.array[:] = stream.gradient_at(points)[:, axes][:, :, axes].ravel()
+
+    def at(self, position: Any) -> Any:
+        return self.velocity + ufl.dot(self.gradient, position - self.position)
+
+
+class StreamField:
+    """The stream about the thread's last position.
+
+    Args:
+        mesh: intervals in s.
+        stream: u(r).
+        quadrature_degree: of the forms that will use it.
+    """
+
+    def __init__(self, mesh: Any, dimension: int, stream: Stream, quadrature_degree: int) -> None:
+        self.stream = stream
+        rule, _ = basix.make_quadrature(basix.CellType.interval, quadrature_degree)
+
+        def quadrature(shape: tuple[int, ...]) -> Any:
+            return basix.ufl.quadrature_element("interval", value_shape=shape, degree=quadrature_degree)
+
+        def linear(shape: tuple[int, ...]) -> Any:
+            return basix.ufl.element("Lagrange", "interval", 1, shape=shape)
+
+        self._cells = _Places(mesh, quadrature, (dimension,), rule)
+        self._nodes = _Places(mesh, linear, (dimension,), np.array([[0.0], [1.0]]))
+
+    def update(self, position: Any) -> None:
+        """Evaluate the stream at the position of the thread."""
+        self._cells.update(position, self.stream)
+        self._nodes.update(position, self.stream)
+
+    def along(self, position: Any) -> Any:
+        """u for integrals over elements, linear about the last update."""
+        return self._cells.at(position)
+
+    def at_nodes(self, position: Any) -> Any:
+        """u for terms at nodes, linear about the last update."""
+        return self._nodes.at(position)

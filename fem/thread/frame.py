@@ -25,17 +25,11 @@ _PARALLEL = 1e-12
 
 @dataclass(frozen=True)
 class Frame:
-    """Coordinates of a solution: (x', z) in a vertical plane, or (x', y', z), x' along a horizontal direction.
+    """Coordinates of a solution: (x', z) in a vertical plane, or (x', y', z), x' along a horizontal direction."""
 
-    Attributes:
-        direction: (x, y) of x', of length 1.
-        dimension: 2 or 3.
-        offset: y' of the plane, m; 0 in space.
-    """
-
-    direction: tuple[float, float]
+    direction: tuple[float, float]  # (x, y) of x', of length 1
     dimension: int
-    offset: float = 0.0
+    offset: float = 0.0  # y' of the plane, m; 0 in space
 
     @property
     def axes(self) -> Array:

@@ -1,18 +1,27 @@
-"""Vibration modes of a thread about an equilibrium: roots λ of (λ² M + λ C + K) y = 0, with errors and shapes."""
+"""Vibration modes of a thread about an equilibrium: roots λ of (λ² M + λ C + K) y = 0, with errors and shapes.
+
+Decay of a mode by quadratic drag in a liquid at rest, as that of a linear damping that takes the same energy.
+
+    ∫ kn |v_n|³ over a period with v = ω a φ cos ωt is that of the linear resistance c = (8/3π) kn ω a |φ|,
+
+so that the amplitude a decays at the rate σ = (4/3π) ω a D₃/(φᵀMφ), where D₃ = ∫ kn |φ_n|³ + kt |φ_t|³ + Σ k |φ|³. It
+is an estimate, the first term for small damping; linear damping comes besides.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.solver_error import EigenSolverError
 from hydroelastic.fem.thread.eigenpairs import Eigenpair, eigenpairs, is_oscillating, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium
-from hydroelastic.fem.thread.equivalent_damping import QuadraticDecay
 from hydroelastic.fem.thread.hyperbolicity import require_real_wave_speeds
 from hydroelastic.fem.thread.operators import ThreadOperators, thread_operators
 from hydroelastic.fem.thread.table import line_table
@@ -26,22 +35,16 @@ _CONVERGED = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Roots:
-    """Motions e^{λt} of one kind, by ascending magnitude.
+    """Motions e^{λt} of one kind, by ascending magnitude."""
 
-    Attributes:
-        values: λ, 1/s, Im λ ≥ 0, shape (modes,).
-        errors: estimate of their absolute errors, 1/s, shape (modes,).
-        residuals: backward errors of the algebraic problem, shape (modes,).
-        shapes: displacements y at the nodes, y*My = (m + ma) L + Σ (M_k + M_a,k), the largest component real and
-            positive, shape (modes, nodes, dimension).
-        out_of_plane: share of y*My that leaves the plane of the equilibrium, from 0 to 1; NaN in two dimensions, for a
-            straight thread and for one that lies in no plane, shape (modes,).
-    """
-
-    values: NDArray[np.complex128]
-    errors: NDArray[np.float64]
-    residuals: NDArray[np.float64]
+    values: NDArray[np.complex128]  # λ, 1/s, Im λ ≥ 0, shape (modes,)
+    errors: NDArray[np.float64]  # estimate of their absolute errors, 1/s, shape (modes,)
+    residuals: NDArray[np.float64]  # backward errors of the algebraic problem, shape (modes,)
+    # displacements y at the nodes, y*My = (m + ma) L + Σ (M_k + M_a,k), the largest component real and positive, shape
+    # (modes, nodes, dimension)
     shapes: NDArray[np.complex128]
+    # share of y*My that leaves the plane of the equilibrium, from 0 to 1; NaN in two dimensions, for a straight thread
+    # and for one that lies in no plane, shape (modes,)
     out_of_plane: NDArray[np.float64]
 
     @property
@@ -59,19 +62,13 @@ class Roots:
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadModes:
-    """The motions of smallest |λ|.
+    """The motions of smallest |λ|."""
 
-    Attributes:
-        nodes: s of the shapes, m, shape (nodes,).
-        oscillating: as many as requested, one of each conjugate pair; ω = Im λ.
-        aperiodic: all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest.
-        quadratic_decay: rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest,
-            1/s, shape (oscillating,); an estimate, besides −Re λ.
-    """
-
-    nodes: NDArray[np.float64]
-    oscillating: Roots
-    aperiodic: Roots
+    nodes: NDArray[np.float64]  # s of the shapes, m, shape (nodes,)
+    oscillating: Roots  # as many as requested, one of each conjugate pair; ω = Im λ
+    aperiodic: Roots  # all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest
+    # rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest, 1/s, shape
+    # (oscillating,); an estimate, besides −Re λ
     quadratic_decay: NDArray[np.float64] | None = None
 
     @property
@@ -208,3 +205,48 @@ def _rounding(stiffness: PETSc.Mat, vector: PETSc.Vec) -> float:
     terms = stiffness.getDiagonal().array_r * vector.array_r**2
     total = stiffness.comm.tompi4py().allreduce(float(terms @ terms), op=MPI.SUM)
     return float(4.0 * np.finfo(float).eps * np.sqrt(total))
+
+
+class QuadraticDecay:
+    """Decay rates of the modes of one thread.
+
+    Raises:
+        ValueError: in a stream, where the drag has a linear part that C holds.
+    """
+
+    def __init__(self, operators: ThreadOperators) -> None:
+        forms, space = operators.equilibrium.forms, operators.equilibrium.space
+        if forms.stream is not None:
+            raise ValueError("amplitude is given, but in a stream the drag damps linearly: leave it out")
+        self._operators = operators
+        positions, self._places = collapsed(space.mixed, 0)
+        self._shape = fem.Function(positions)
+        self._velocity = fem.Function(self._shape.function_space)
+        position = operators.equilibrium.state.position
+        work = forms.load_work(position, self._velocity, self._shape) - forms.load_work(position, None, self._shape)
+        self._work = compiled_form(work)
+
+    def rate(self, pair: Eigenpair, amplitude: float) -> float:
+        """σ in 1/s."""
+        operators, equilibrium = self._operators, self._operators.equilibrium
+        function = operators.function(pair.real)
+        table = line_table(function, equilibrium.space.nodes, 0).at(equilibrium.space.nodes)
+        largest = float(np.linalg.norm(table, axis=1).max())
+        self._shape.x.array[:] = function.x.array[self._places] / largest
+        cubic = self._cubic_part()
+        image = operators.zeros()
+        operators.mass.mult(pair.real, image)
+        time = operators.time_unit / equilibrium.units.time
+        mass = float(image.dot(pair.real)) * time**2 / largest**2
+        scaled = amplitude / equilibrium.units.length
+        frequency = abs(pair.root) / time
+        return 4.0 / (3.0 * np.pi) * frequency * scaled * cubic / mass / equilibrium.units.time
+
+    def _cubic_part(self) -> float:
+        """D₃ of A x² + D₃ x³, the power at x times the shape as velocity, from two values of x."""
+        powers = []
+        for factor in (1.0, 2.0):
+            self._velocity.x.array[:] = factor * self._shape.x.array
+            work = self._shape.function_space.mesh.comm.allreduce(fem.assemble_scalar(self._work), op=MPI.SUM)
+            powers.append(-factor * float(work))
+        return (powers[1] - 4.0 * powers[0]) / 4.0

@@ -16,37 +16,24 @@ Run = Callable[[MotionPlan, int], ThreadMotion]
 
 @dataclass(frozen=True, kw_only=True)
 class MotionDifference:
-    """The largest differences of two motions at the nodes and the output times.
+    """The largest differences of two motions at the nodes and the output times."""
 
-    Attributes:
-        positions: distance, m.
-        velocities: m/s.
-        tensions: N.
-    """
-
-    positions: float
-    velocities: float
-    tensions: float
+    positions: float  # distance, m
+    velocities: float  # m/s
+    tensions: float  # N
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotionWithErrors:
-    """A motion and its errors.
+    """A motion and its errors."""
 
-    Attributes:
-        motion: that of the halved steps on the mesh as given.
-        steps: difference from that of the whole steps; a third of it estimates the remaining error of second-order
-            steps.
-        mesh: difference from that of halved elements with the whole steps, if it was asked for.
-        ends: times at which the whole steps end, s, shape (n,).
-        tension_changes: largest difference of a tension at each of them, by halving steps and, if that was asked for,
-            elements, N, shape (n,).
-    """
-
-    motion: ThreadMotion
+    motion: ThreadMotion  # that of the halved steps on the mesh as given
+    # difference from that of the whole steps; a third of it estimates the remaining error of second-order steps
     steps: MotionDifference
-    mesh: MotionDifference | None
-    ends: NDArray[np.float64]
+    mesh: MotionDifference | None  # difference from that of halved elements with the whole steps, if it was asked for
+    ends: NDArray[np.float64]  # times at which the whole steps end, s, shape (n,)
+    # largest difference of a tension at each of them, by halving steps and, if that was asked for, elements, N, shape
+    # (n,)
     tension_changes: NDArray[np.float64]
 
     @property

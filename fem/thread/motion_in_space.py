@@ -20,25 +20,15 @@ _TENSION_LEAST = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class Extremes:
-    """Tensions at the ends of all steps of a motion, between the output times too; n ends.
+    """Tensions at the ends of all steps of a motion, between the output times too; n ends."""
 
-    Attributes:
-        end_tensions: at A and B, N, shape (n, 2).
-        lowest: along the thread, N, shape (n,).
-        lowest_at: where that is, m along the thread, shape (n,).
-        highest: along the thread, N, shape (n,).
-        highest_at: where that is, m along the thread, shape (n,).
-        force_scale: the largest force that acted on the thread, N.
-        error: estimated, of all of them and of what lies between the steps, N.
-    """
-
-    end_tensions: Array
-    lowest: Array
-    lowest_at: Array
-    highest: Array
-    highest_at: Array
-    force_scale: float
-    error: float
+    end_tensions: Array  # at A and B, N, shape (n, 2)
+    lowest: Array  # along the thread, N, shape (n,)
+    lowest_at: Array  # where that is, m along the thread, shape (n,)
+    highest: Array  # along the thread, N, shape (n,)
+    highest_at: Array  # where that is, m along the thread, shape (n,)
+    force_scale: float  # the largest force that acted on the thread, N
+    error: float  # estimated, of all of them and of what lies between the steps, N
 
     @property
     def size(self) -> float:
@@ -48,39 +38,23 @@ class Extremes:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionInSpace:
-    """A motion in time.
+    """A motion in time."""
 
-    Attributes:
-        times: s, shape (times,).
-        nodes: arc length s of the nodes, m, shape (nodes,).
-        positions: r, m, shape (times, nodes, 3).
-        tensions: T, N, shape (times, nodes).
-        step_error: largest change of a position by halving all steps, m.
-        mesh_error: the same by halving all elements, m.
-        tension_error: largest change of a tension at the output times by both, N.
-        steps: in time, of the last run.
-        step_ends: times of the energies, s, shape (steps + 1,).
-        energies: kinetic, of weight and dead forces, of stretch, of bending, J, shape (steps + 1, 4).
-        drag_work: of the drag up to these times, J, shape (steps + 1,).
-        extremes: tensions at `step_ends`.
-        slack: times in which some of the thread was in compression, by more than the error of its tension then.
-        distance_to_rest: largest distance of the last shape from the equilibrium, m.
-    """
-
-    times: Array
-    nodes: Array
-    positions: Array
-    tensions: Array
-    step_error: float
-    mesh_error: float
-    tension_error: float
-    steps: int
-    step_ends: Array
-    energies: Array
-    drag_work: Array
-    extremes: Extremes
+    times: Array  # s, shape (times,)
+    nodes: Array  # arc length s of the nodes, m, shape (nodes,)
+    positions: Array  # r, m, shape (times, nodes, 3)
+    tensions: Array  # T, N, shape (times, nodes)
+    step_error: float  # largest change of a position by halving all steps, m
+    mesh_error: float  # the same by halving all elements, m
+    tension_error: float  # largest change of a tension at the output times by both, N
+    steps: int  # in time, of the last run
+    step_ends: Array  # times of the energies, s, shape (steps + 1,)
+    energies: Array  # kinetic, of weight and dead forces, of stretch, of bending, J, shape (steps + 1, 4)
+    drag_work: Array  # of the drag up to these times, J, shape (steps + 1,)
+    extremes: Extremes  # tensions at `step_ends`
+    # times in which some of the thread was in compression, by more than the error of its tension then
     slack: tuple[Slack, ...]
-    distance_to_rest: float
+    distance_to_rest: float  # largest distance of the last shape from the equilibrium, m
 
     @property
     def position_error(self) -> float:

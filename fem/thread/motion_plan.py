@@ -21,18 +21,15 @@ class ThreadMotionError(RuntimeError):
 
 @dataclass(frozen=True, kw_only=True)
 class PrescribedEnd:
-    """Prescribed position or force of an end by the time, and its release.
+    """Prescribed position or force of an end by the time, and its release."""
 
-    Attributes:
-        position: of the end in m by the time in s, shape (dimension,), of which the held components are asked; the
-            model's position without it.
-        force: the dead force on the end in N by the time, shape (dimension,), in place of the model's.
-        release: when each held component is released, s, shape (dimension,); infinite for never. A clamp is released
-            with the last component.
-    """
-
+    # of the end in m by the time in s, shape (dimension,), of which the held components are asked; the model's position
+    # without it
     position: VectorOfTime | None = None
+    # the dead force on the end in N by the time, shape (dimension,), in place of the model's
     force: VectorOfTime | None = None
+    # when each held component is released, s, shape (dimension,); infinite for never. A clamp is released with the last
+    # component.
     release: tuple[float, ...] | None = None
 
     def held(self, held: tuple[bool, ...], time: float) -> tuple[bool, ...]:
@@ -44,35 +41,28 @@ class PrescribedEnd:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionPlan:
-    """A motion to be solved for.
+    """A motion to be solved for."""
 
-    Attributes:
-        times: output times, s, increasing, shape (times,); the first is that of the start.
-        step: the longest step, s; that of all steps without `tolerance`, up to landing on output times.
-        tolerance: error of positions that a step may add, relative to the length; the steps adapt to it.
-        ends: of A and B.
-        stream_factor: by the time in s, times the model's stream; the pressure gradient of a stream that changes is
-            not in the equations, so it must change slowly.
-        breaks: times at which velocities or accelerations of the ends, forces, or the stream's rate jump.
-        dissipation: spectral radius at infinite frequency of the generalised-α method, which damps frequencies that the
-            steps do not resolve; without it the midpoint rule, which conserves energy.
-        shedding: vortices, if any.
-        grid: times at which steps end, s, increasing, shape (steps,), in place of `step` and `tolerance`.
-        rest_speed: m/s; the motion ends when no component of a velocity is larger, after at least one step. With long
-            steps this needs `dissipation`: the midpoint rule keeps oscillating.
-        tension_at_start: whether a thread without flexural rigidity is refused that would be in compression at once.
-    """
-
-    times: NDArray[np.float64]
-    step: float
+    times: NDArray[np.float64]  # output times, s, increasing, shape (times,); the first is that of the start
+    step: float  # the longest step, s; that of all steps without `tolerance`, up to landing on output times
+    # error of positions that a step may add, relative to the length; the steps adapt to it
     tolerance: float | None = None
-    ends: tuple[PrescribedEnd, PrescribedEnd] = (PrescribedEnd(), PrescribedEnd())
+    ends: tuple[PrescribedEnd, PrescribedEnd] = (PrescribedEnd(), PrescribedEnd())  # of A and B
+    # by the time in s, times the model's stream; the pressure gradient of a stream that changes is not in the
+    # equations, so it must change slowly
     stream_factor: Callable[[float], float] | None = None
+    # times at which velocities or accelerations of the ends, forces, or the stream's rate jump
     breaks: tuple[float, ...] = ()
+    # spectral radius at infinite frequency of the generalised-α method, which damps frequencies that the steps do not
+    # resolve; without it the midpoint rule, which conserves energy
     dissipation: float | None = None
-    shedding: VortexShedding | None = None
+    shedding: VortexShedding | None = None  # vortices, if any
+    # times at which steps end, s, increasing, shape (steps,), in place of `step` and `tolerance`
     grid: NDArray[np.float64] | None = None
+    # m/s; the motion ends when no component of a velocity is larger, after at least one step. With long steps this
+    # needs `dissipation`: the midpoint rule keeps oscillating.
     rest_speed: float | None = None
+    # whether a thread without flexural rigidity is refused that would be in compression at once
     tension_at_start: bool = False
 
     def __post_init__(self) -> None:

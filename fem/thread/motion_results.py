@@ -12,83 +12,45 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, kw_only=True)
 class StepHistory:
-    """Values of all n steps, SI.
+    """Values of all n steps, SI."""
 
-    Attributes:
-        ends: times at which steps end, with that of the start before them, s, shape (n + 1,).
-        energies: kinetic, potential (weight and dead forces), elastic and bending at `ends`, J, shape (n + 1, 4);
-            without the liquid.
-        work: of drag, of the liquid's inertia, of changes of the dead forces, of the held ends, J, shape (n, 4).
-        reactions: forces on the held ends at `ends`, N, shape (n + 1, 2, dimension).
-        tensions: at the nodes at `ends`, N, shape (n + 1, nodes); as the reactions just after breaks.
-        solutions: linear systems of each step, shape (n,).
-    """
-
-    ends: NDArray[np.float64]
+    ends: NDArray[np.float64]  # times at which steps end, with that of the start before them, s, shape (n + 1,)
+    # kinetic, potential (weight and dead forces), elastic and bending at `ends`, J, shape (n + 1, 4); without the
+    # liquid
     energies: NDArray[np.float64]
+    # of drag, of the liquid's inertia, of changes of the dead forces, of the held ends, J, shape (n, 4)
     work: NDArray[np.float64]
-    reactions: NDArray[np.float64]
-    tensions: NDArray[np.float64]
-    solutions: NDArray[np.int64]
-
-    @property
-    def imbalance(self) -> NDArray[np.float64]:
-        """Change of the energy less the work of all forces, in each step, J, shape (n,).
-
-        With the midpoint rule it is rounding.
-        """
-        growth: NDArray[np.float64] = np.diff(self.energies.sum(axis=1)) - self.work.sum(axis=1)
-        return growth
+    reactions: NDArray[np.float64]  # forces on the held ends at `ends`, N, shape (n + 1, 2, dimension)
+    tensions: NDArray[np.float64]  # at the nodes at `ends`, N, shape (n + 1, nodes); as the reactions just after breaks
+    solutions: NDArray[np.int64]  # linear systems of each step, shape (n,)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Slack:
-    """An interval with compression, which a thread without bending stiffness cannot carry.
+    """An interval with compression, which a thread without bending stiffness cannot carry."""
 
-    Attributes:
-        start: first end of a step with compression, s.
-        end: last one, s.
-        where: s of the node with the lowest tension, m.
-        tension: the lowest one, N.
-    """
-
-    start: float
-    end: float
-    where: float
-    tension: float
+    start: float  # first end of a step with compression, s
+    end: float  # last one, s
+    where: float  # s of the node with the lowest tension, m
+    tension: float  # the lowest one, N
 
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadMotion:
-    """A motion of a thread, SI.
+    """A motion of a thread, SI."""
 
-    Attributes:
-        times: of the output that was reached, s, shape (times,).
-        nodes: s of the nodes, m, shape (nodes,).
-        positions: shape (times, nodes, dimension).
-        velocities: shape (times, nodes, dimension).
-        tensions: at breaks just after them, shape (times, nodes).
-        force_scale: the largest force that acted on the thread, N, see `force_scale`.
-        history: numbers of all steps.
-        moved: largest change of given positions to consistent ones, m.
-        velocity_change: largest change of velocities to consistent ones, at the start and at discontinuities, m/s.
-        rejected: number of steps that were repeated with a shorter length.
-        slack: times in compression.
-        rest_time: time at which the thread came to rest, s, if that was asked for and reached.
-    """
-
-    times: NDArray[np.float64]
-    nodes: NDArray[np.float64]
-    positions: NDArray[np.float64]
-    velocities: NDArray[np.float64]
-    tensions: NDArray[np.float64]
-    force_scale: float
-    history: StepHistory
-    moved: float
-    velocity_change: float
-    rejected: int
-    slack: tuple[Slack, ...]
-    rest_time: float | None
+    times: NDArray[np.float64]  # of the output that was reached, s, shape (times,)
+    nodes: NDArray[np.float64]  # s of the nodes, m, shape (nodes,)
+    positions: NDArray[np.float64]  # shape (times, nodes, dimension)
+    velocities: NDArray[np.float64]  # shape (times, nodes, dimension)
+    tensions: NDArray[np.float64]  # at breaks just after them, shape (times, nodes)
+    force_scale: float  # the largest force that acted on the thread, N, see `force_scale`
+    history: StepHistory  # numbers of all steps
+    moved: float  # largest change of given positions to consistent ones, m
+    velocity_change: float  # largest change of velocities to consistent ones, at the start and at discontinuities, m/s
+    rejected: int  # number of steps that were repeated with a shorter length
+    slack: tuple[Slack, ...]  # times in compression
+    rest_time: float | None  # time at which the thread came to rest, s, if that was asked for and reached
 
 
 # Of the characteristic force: compression below it is rounding, or an end without force.

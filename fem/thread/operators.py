@@ -30,25 +30,15 @@ _STRAIGHT = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadOperators:
-    """The matrices, in a unit of time in which the lowest frequencies are of the order of one.
+    """The matrices, in a unit of time in which the lowest frequencies are of the order of one."""
 
-    Attributes:
-        equilibrium: about which the thread moves.
-        stiffness: K.
-        damping: C; ``None`` where no force is linear in the velocity or damping is neglected.
-        mass: M; nothing acts on the axial force and on the curvature.
-        free: owned unknowns of the mixed space that are not held.
-        time_unit: s.
-        symmetric: whether K is.
-    """
-
-    equilibrium: Equilibrium
-    stiffness: PETSc.Mat
-    damping: PETSc.Mat | None
-    mass: PETSc.Mat
-    free: NDArray[np.int32]
-    time_unit: float
-    symmetric: bool
+    equilibrium: Equilibrium  # about which the thread moves
+    stiffness: PETSc.Mat  # K
+    damping: PETSc.Mat | None  # C; ``None`` where no force is linear in the velocity or damping is neglected
+    mass: PETSc.Mat  # M; nothing acts on the axial force and on the curvature
+    free: NDArray[np.int32]  # owned unknowns of the mixed space that are not held
+    time_unit: float  # s
+    symmetric: bool  # whether K is
 
     @property
     def comm(self) -> MPI.Comm:

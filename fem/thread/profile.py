@@ -37,25 +37,16 @@ _MOST_ROUNDS = 100
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadProfile:
-    """A thread at rest, SI.
-
-    Attributes:
-        model: the thread.
-        nodes: s of the nodes, m, shape (elements + 1,).
-        position_table: r, m.
-        curvature_table: κ, 1/m, of a thread that bends.
-        force: N at both nodes of each element, N, shape (elements, 2, dimension).
-        tension: T there, N, shape (elements, 2).
-        balance: the force in balance with the load, N or N − G, as Legendre series on each element, N, shape
-            (elements, terms, dimension).
-    """
+    """A thread at rest, SI."""
 
     model: Thread
-    nodes: NDArray[np.float64]
-    position_table: LineTable
-    curvature_table: LineTable | None
-    force: NDArray[np.float64]
-    tension: NDArray[np.float64]
+    nodes: NDArray[np.float64]  # s of the nodes, m, shape (elements + 1,)
+    position_table: LineTable  # r, m
+    curvature_table: LineTable | None  # κ, 1/m, of a thread that bends
+    force: NDArray[np.float64]  # N at both nodes of each element, N, shape (elements, 2, dimension)
+    tension: NDArray[np.float64]  # T there, N, shape (elements, 2)
+    # the force in balance with the load, N or N − G, as Legendre series on each element, N, shape (elements, terms,
+    # dimension)
     balance: NDArray[np.float64]
 
     def position(self, s: NDArray[np.float64]) -> NDArray[np.float64]:

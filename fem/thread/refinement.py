@@ -1,4 +1,17 @@
-"""The thread at rest to a tolerance: the error is estimated from solutions on a mesh and on its halves."""
+"""The thread at rest to a tolerance: the error is estimated from solutions on a mesh and on its halves.
+
+Rounding errors of a thread at rest, by the residual and by the response to a stretch of the whole thread.
+
+Lengths of elements are differences of positions, so that |r_s| is known to some eps times the number of elements. A
+taut thread answers to a stretch ε with the tension ε/(1/EA + |Pq|²L²/12T³), EA ε if it is nearly straight: 1e-9 of the
+tension and more where that is far below EA. The response y of all unknowns solves F'(w) y = ∫μ.
+
+Nodes where the thread passes heights at which a derivative of its stream jumps.
+
+Between rows of a table the stream is smooth; at them a derivative jumps, the first one of straight lines, the second of
+monotone cubics, the third of a spline. An element that contains such a place has an error of low order that depends on
+the position within it: comparison with halved elements does not estimate it.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +26,10 @@ from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.thread.continuation import solve_with_ramps
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, Start
 from hydroelastic.fem.thread.initial_mesh import initial_nodes
-from hydroelastic.fem.thread.knots import at_knots, knots_along
 from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
-from hydroelastic.fem.thread.rounding import ThreadRounding, thread_rounding
+from hydroelastic.fem.thread.table import line_table
+from hydroelastic.meshes.compat import collapsed
 from hydroelastic.physics.thread import Thread
 
 # Compression below this part of the characteristic tension is rounding.
@@ -35,6 +48,16 @@ _MOST_ELEMENTS = 4_000
 # Target error of refined elements, of the tolerance.
 _AIM = 0.3
 
+# Number of samples on each element in search of a passage.
+_LOOKS = 16
+_BISECTIONS = 50
+# Of the smaller element beside it: a node this near is moved to the passage, otherwise there is another one.
+_NEAR = 0.4
+# Of the same: the remaining error of a kink falls with its square.
+_THERE = 1e-3
+# With more passages elements are as short as the rows of the table are dense, and nodes are left where they are.
+_MOST = 300
+
 
 class CompressionError(ThreadSolverError):
     """The thread would be in compression, which a thread without bending stiffness cannot carry."""
@@ -46,44 +69,28 @@ class NoEquilibriumError(ThreadSolverError):
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadErrors:
-    """Bounds of errors, estimated, SI.
+    """Bounds of errors, estimated, SI."""
 
-    Attributes:
-        position: of the whole thread, m.
-        tension: of the whole thread, N.
-        reaction: N.
-        moment: of the ends, N m.
-        relative: the largest of these, of positions by the length, of forces by the largest contact force or the
-            characteristic tension if that is larger, of moments by the largest one or by that which bends the thread by
-            a radian along its length.
-    """
-
-    position: float
-    tension: float
-    reaction: float
-    moment: float
+    position: float  # of the whole thread, m
+    tension: float  # of the whole thread, N
+    reaction: float  # N
+    moment: float  # of the ends, N m
+    # the largest of these, of positions by the length, of forces by the largest contact force or the characteristic
+    # tension if that is larger, of moments by the largest one or by that which bends the thread by a radian along its
+    # length
     relative: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadSolution:
-    """A thread at rest, of known accuracy.
+    """A thread at rest, of known accuracy."""
 
-    Attributes:
-        equilibrium: the finer one of the last two field solutions.
-        profile: its tables.
-        errors: the difference of the two, which bounds the error of the finer one, and rounding.
-        elements: numbers of elements of all meshes, in order.
-        newton_steps: on each of them.
-        ramps: name and number of steps of each continuation that was needed.
-    """
-
-    equilibrium: Equilibrium
-    profile: ThreadProfile
-    errors: ThreadErrors
-    elements: tuple[int, ...]
-    newton_steps: tuple[int, ...]
-    ramps: tuple[tuple[str, int], ...]
+    equilibrium: Equilibrium  # the finer one of the last two field solutions
+    profile: ThreadProfile  # its tables
+    errors: ThreadErrors  # the difference of the two, which bounds the error of the finer one, and rounding
+    elements: tuple[int, ...]  # numbers of elements of all meshes, in order
+    newton_steps: tuple[int, ...]  # on each of them
+    ramps: tuple[tuple[str, int], ...]  # name and number of steps of each continuation that was needed
 
 
 def solve_thread(
@@ -169,31 +176,31 @@ def solve_thread(
 
 @dataclass(frozen=True, kw_only=True)
 class _Pair:
-    """Solutions on a mesh and on its halves.
+    """Solutions on a mesh and on its halves."""
 
-    Attributes:
-        equilibrium: on the halves.
-        fine: its profile.
-        nodes: of the halves, m.
-        comparison: of both.
-        differences: of both, without rounding.
-        errors: the differences and rounding.
-        knots_moved: whether knots of the stream lie elsewhere along the thread than the mesh has them.
-    """
-
-    equilibrium: Equilibrium
-    fine: ThreadProfile
-    nodes: NDArray[np.float64]
-    comparison: _Comparison
-    differences: ThreadErrors
-    errors: ThreadErrors
-    knots_moved: bool
+    equilibrium: Equilibrium  # on the halves
+    fine: ThreadProfile  # its profile
+    nodes: NDArray[np.float64]  # of the halves, m
+    comparison: _Comparison  # of both
+    differences: ThreadErrors  # of both, without rounding
+    errors: ThreadErrors  # the differences and rounding
+    knots_moved: bool  # whether knots of the stream lie elsewhere along the thread than the mesh has them
 
     @property
     def error(self) -> ErrorEstimate:
         """The relative error; finer meshes do not reduce its rounding."""
         rounding = self.errors.relative - self.differences.relative
         return ErrorEstimate(discretization=self.differences.relative, rounding=rounding)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadRounding:
+    """Estimated bounds of rounding errors, SI."""
+
+    position: float  # of the whole thread, m
+    tension: float  # of the whole thread, N
+    reaction: float  # N
+    moment: float  # N m
 
 
 _NOTHING = ThreadRounding(position=0.0, tension=0.0, reaction=0.0, moment=0.0)
@@ -290,3 +297,86 @@ def _refuse_compression(profile: ThreadProfile, limit: float) -> None:
             f"the thread would be in compression: its tension is {smallest:.3e} N at s = {place:.6g} m "
             f"of {profile.model.length:.6g} m"
         )
+
+
+def thread_rounding(equilibrium: Equilibrium) -> ThreadRounding:
+    """Rounding of a solution by Newton's method (collective)."""
+    space, units, response = equilibrium.space, equilibrium.units, equilibrium.stretch_response
+    stretch = _stretch_unknown(equilibrium)
+    position = line_table(response, space.nodes, 0)
+    tension = stretch * float(np.max(np.abs(line_table(response, space.nodes, 1).values)))
+    largest = float(np.max(np.abs(line_table(equilibrium.solution, space.nodes, 1).values)))
+    turn = stretch * float(np.max(np.linalg.norm(position.at_ends(derivative=1), axis=2)))
+    moment = 0.0
+    if equilibrium.model.bends:
+        bend = float(np.max(np.linalg.norm(line_table(response, space.nodes, 2).values, axis=2)))
+        moment = stretch * bend * equilibrium.model.flexural_rigidity / units.length
+    return ThreadRounding(
+        position=stretch * float(np.max(np.linalg.norm(position.values, axis=2))) * units.length,
+        tension=tension * units.force,
+        reaction=(tension + largest * turn) * units.force,
+        moment=moment,
+    )
+
+
+def _stretch_unknown(equilibrium: Equilibrium) -> float:
+    """Uncertainty of the stretch of the whole thread: the residuals of ∫μ(|r_s| − 1 − S/EA), whose test functions add
+    up to one, with equal signs; and no less than eps for each element and each length from the origin.
+    """
+    space = equilibrium.space
+    rows = collapsed(space.mixed, 1)[1]
+    left = equilibrium.residual[rows[rows < len(equilibrium.residual)]]
+    total = float(space.mesh.comm.allreduce(float(np.sum(np.abs(left))), op=MPI.SUM))
+    farthest = float(np.max(np.abs(line_table(equilibrium.solution, space.nodes, 0).values)))
+    least = float(np.finfo(float).eps) * (len(space.nodes) - 1) * max(farthest, 1.0)
+    return max(total, least)
+
+
+def knots_along(heights: tuple[float, ...], position: Along, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places at which a thread passes heights where a derivative of its stream jumps."""
+    breaks = np.array(heights, dtype=np.float64)
+    if len(breaks) == 0:
+        return breaks
+    looks = np.append((nodes[:-1, None] + np.diff(nodes)[:, None] * np.arange(_LOOKS) / _LOOKS).ravel(), nodes[-1])
+    # The number of breaks below each place changes where the thread passes some.
+    below = np.searchsorted(breaks, position(looks)[:, -1])
+    if np.sum(np.abs(np.diff(below))) > _MOST:
+        return np.empty(0)
+    intervals: list[int] = []
+    passed: list[float] = []
+    for place in np.flatnonzero(np.diff(below)):
+        first, last = sorted((below[place], below[place + 1]))
+        passed += list(breaks[first:last])
+        intervals += [place] * (last - first)
+    low, high, levels = looks[intervals], looks[np.array(intervals, dtype=int) + 1], np.array(passed)
+    if len(levels) == 0:
+        return levels
+    rising = position(high)[:, -1] > position(low)[:, -1]
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        beyond = (position(middle)[:, -1] > levels) == rising
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    found: NDArray[np.float64] = np.unique(0.5 * (low + high))
+    return found
+
+
+def at_knots(nodes: NDArray[np.float64], knots: NDArray[np.float64], kept: list[float]) -> NDArray[np.float64]:
+    """Nodes of which one is at each knot: the nearest one is moved, or one is added between two that are far."""
+    fixed = [nodes[0], *kept, nodes[-1]]
+    for knot in knots:
+        index = int(np.argmin(np.abs(nodes - knot)))
+        size = _smaller_element(nodes, index)
+        distance = abs(nodes[index] - knot)
+        if distance <= _THERE * size:
+            fixed.append(nodes[index])
+        elif distance < _NEAR * size and nodes[index] not in fixed:
+            nodes = np.concatenate([nodes[:index], [knot], nodes[index + 1 :]])
+            fixed.append(knot)
+        elif distance > 1e-9 * nodes[-1]:
+            nodes = np.sort(np.append(nodes, knot))
+            fixed.append(knot)
+    return nodes
+
+
+def _smaller_element(nodes: NDArray[np.float64], index: int) -> float:
+    return float(np.min(np.diff(nodes[max(index - 1, 0) : index + 2])))

@@ -16,51 +16,28 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class RestingThread:
-    """A thread at rest, at given arc lengths ("positions").
+    """A thread at rest, at given arc lengths ("positions")."""
 
-    Attributes:
-        positions: r, m, shape (positions, 3).
-        tensions: T, N, shape (positions,).
-        forces: contact force N, N, shape (positions, 3).
-        curvatures: |r_ss|, 1/m, shape (positions,).
-        end_positions: of A and B, m, shape (2, 3).
-        end_tensions: at A and B, N, shape (2,).
-        reactions: support forces on the thread at A and B, N, shape (2, 3).
-        end_moments: EI κ at A and B, N·m, shape (2,).
-        largest_tension: of the whole thread, N.
-        smallest_tension: of the whole thread, N.
-        smallest_at: where that is, m along the thread.
-        lowest_height: z of the lowest point of the whole thread, m.
-        position_error: estimated, of all positions, m.
-        tension_error: estimated, of all tensions, N.
-        reaction_error: estimated, of reactions, N.
-        moment_error: estimated, of the end moments, N·m.
-        relative_error: the largest of them, of length, largest force and largest moment.
-        start: name of the start of Newton's method.
-        newton_steps: on each of the meshes.
-        failed_starts: why the starts before it failed.
-    """
-
-    positions: Array
-    tensions: Array
-    forces: Array
-    curvatures: Array
-    end_positions: Array
-    end_tensions: Array
-    reactions: Array
-    end_moments: Array
-    largest_tension: float
-    smallest_tension: float
-    smallest_at: float
-    lowest_height: float
-    position_error: float
-    tension_error: float
-    reaction_error: float
-    moment_error: float
-    relative_error: float
-    start: str
-    newton_steps: tuple[int, ...]
-    failed_starts: tuple[str, ...]
+    positions: Array  # r, m, shape (positions, 3)
+    tensions: Array  # T, N, shape (positions,)
+    forces: Array  # contact force N, N, shape (positions, 3)
+    curvatures: Array  # |r_ss|, 1/m, shape (positions,)
+    end_positions: Array  # of A and B, m, shape (2, 3)
+    end_tensions: Array  # at A and B, N, shape (2,)
+    reactions: Array  # support forces on the thread at A and B, N, shape (2, 3)
+    end_moments: Array  # EI κ at A and B, N·m, shape (2,)
+    largest_tension: float  # of the whole thread, N
+    smallest_tension: float  # of the whole thread, N
+    smallest_at: float  # where that is, m along the thread
+    lowest_height: float  # z of the lowest point of the whole thread, m
+    position_error: float  # estimated, of all positions, m
+    tension_error: float  # estimated, of all tensions, N
+    reaction_error: float  # estimated, of reactions, N
+    moment_error: float  # estimated, of the end moments, N·m
+    relative_error: float  # the largest of them, of length, largest force and largest moment
+    start: str  # name of the start of Newton's method
+    newton_steps: tuple[int, ...]  # on each of the meshes
+    failed_starts: tuple[str, ...]  # why the starts before it failed
 
 
 def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingThread:

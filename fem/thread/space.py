@@ -23,7 +23,6 @@ class ThreadSpace:
     """Spaces on one mesh of a thread.
 
     Args:
-        comm: communicator.
         nodes: s of the nodes from 0 to the length, increasing, the same on all processes.
         degree: p of the positions, at least 1.
         dimension: of the positions, 2 or 3.

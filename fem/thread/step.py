@@ -37,16 +37,11 @@ class Weights:
     """Weights of v̄, v₀ and a₀ in the position, velocity and acceleration of the equations.
 
     r = r₀ + c v̄,  v = b·(v̄, v₀, a₀),  a = d·(v̄, v₀, a₀).
-
-    Attributes:
-        position: c.
-        velocity: b.
-        acceleration: d.
     """
 
-    position: float
-    velocity: tuple[float, float, float]
-    acceleration: tuple[float, float, float]
+    position: float  # c
+    velocity: tuple[float, float, float]  # b
+    acceleration: tuple[float, float, float]  # d
 
 
 def midpoint_weights(step: float) -> Weights:
@@ -56,13 +51,9 @@ def midpoint_weights(step: float) -> Weights:
 
 @dataclass(frozen=True)
 class GeneralisedAlpha:
-    """Parameters of the method of Chung and Hulbert.
+    """Parameters of the method of Chung and Hulbert."""
 
-    Attributes:
-        radius: spectral radius at infinite frequency, 0 to 1.
-    """
-
-    radius: float
+    radius: float  # spectral radius at infinite frequency, 0 to 1
 
     @property
     def mass_shift(self) -> float:

@@ -15,17 +15,11 @@ from hydroelastic.meshes.compat import collapsed, geometry_dofmap
 
 @dataclass(frozen=True)
 class LineTable:
-    """A field that is a polynomial on each element.
+    """A field that is a polynomial on each element."""
 
-    Attributes:
-        nodes: s of the nodes, increasing, shape (n + 1,).
-        element: Lagrange element of basix, of one component.
-        values: at the element's points, shape (n, points, components).
-    """
-
-    nodes: NDArray[np.float64]
-    element: Any
-    values: NDArray[np.float64]
+    nodes: NDArray[np.float64]  # s of the nodes, increasing, shape (n + 1,)
+    element: Any  # Lagrange element of basix, of one component
+    values: NDArray[np.float64]  # at the element's points, shape (n, points, components)
 
     def at(self, s: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
         """Values, or derivatives by s; at nodes between elements those of the next element."""

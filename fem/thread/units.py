@@ -12,17 +12,11 @@ from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
 
 @dataclass(frozen=True, kw_only=True)
 class Units:
-    """Units of length, force and time that make a thread dimensionless.
+    """Units of length, force and time that make a thread dimensionless."""
 
-    Attributes:
-        length: m.
-        force: N.
-        time: s.
-    """
-
-    length: float
-    force: float
-    time: float = 1.0
+    length: float  # m
+    force: float  # N
+    time: float = 1.0  # s
 
     @property
     def mass(self) -> float:

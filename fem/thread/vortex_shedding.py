@@ -23,7 +23,6 @@ class SheddingLoad:
     """The vortex force at the middle of a step, with the path lengths ∫|u_n| dt at all quadrature points.
 
     Args:
-        forms: of the thread.
         shedding: in the units of the forms.
     """
 

@@ -33,17 +33,11 @@ class UnsolvedMotionError(RuntimeError):
 
 @dataclass(frozen=True, kw_only=True)
 class WaveForces:
-    """Forces of waves on m motions, r(t) Re Σ fₙ e^{−iωₙt}.
+    """Forces of waves on m motions, r(t) Re Σ fₙ e^{−iωₙt}."""
 
-    Attributes:
-        omega: ω of the waves, rad/s, shape (n,).
-        forces: f, with amplitudes and phases of the waves, shape (n, m).
-        ramp: time in which the waves grow to their height, s: r = (1 − cos(πt/ramp))/2 until then.
-    """
-
-    omega: Floats
-    forces: Complexes
-    ramp: float = 0.0
+    omega: Floats  # ω of the waves, rad/s, shape (n,)
+    forces: Complexes  # f, with amplitudes and phases of the waves, shape (n, m)
+    ramp: float = 0.0  # time in which the waves grow to their height, s: r = (1 − cos(πt/ramp))/2 until then
 
     def grown(self, times: Floats) -> Floats:
         """r at times, shape (n,)."""
@@ -60,19 +54,12 @@ class WaveForces:
 
 @dataclass(frozen=True, kw_only=True)
 class MovingBodies:
-    """The equation of m motions, SI units.
+    """The equation of m motions, SI units."""
 
-    Attributes:
-        memory: added mass at infinite frequency and impulse responses.
-        inertia: M, shape (m, m).
-        stiffness: of hydrostatics and of the bodies, shape (m, m).
-        outside: springs, dampers and drags from outside.
-    """
-
-    memory: RadiationMemory
-    inertia: Floats
-    stiffness: Floats
-    outside: OutsideForces
+    memory: RadiationMemory  # added mass at infinite frequency and impulse responses
+    inertia: Floats  # M, shape (m, m)
+    stiffness: Floats  # of hydrostatics and of the bodies, shape (m, m)
+    outside: OutsideForces  # springs, dampers and drags from outside
 
     def steady(self, waves: WaveForces) -> Complexes:
         """Amplitudes of the motions in waves without a beginning, with the linear damping that takes the same power as

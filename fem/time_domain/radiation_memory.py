@@ -59,25 +59,15 @@ _LATE = 3.0
 
 @dataclass(frozen=True, kw_only=True)
 class DampingTail:
-    """B of m motions beyond Ω, SI units.
+    """B of m motions beyond Ω, SI units."""
 
-    Attributes:
-        highest: Ω, rad/s.
-        within: (2/π) ∫₀^Ω B dω, shape (m, m).
-        beyond: (2/π) ∫_Ω^∞ B dω, shape (m, m).
-        powers: q, shape (m,).
-        sizes: diagonal of K(0), or what is negligible beside it, shape (m,).
-        error: estimated error of the diagonal of `beyond`, relative to these, shape (m,).
-        has_peaks: whether resonances of the water go on beyond Ω.
-    """
-
-    highest: float
-    within: Floats
-    beyond: Floats
-    powers: Floats
-    sizes: Floats
-    error: Floats
-    has_peaks: bool
+    highest: float  # Ω, rad/s
+    within: Floats  # (2/π) ∫₀^Ω B dω, shape (m, m)
+    beyond: Floats  # (2/π) ∫_Ω^∞ B dω, shape (m, m)
+    powers: Floats  # q, shape (m,)
+    sizes: Floats  # diagonal of K(0), or what is negligible beside it, shape (m,)
+    error: Floats  # estimated error of the diagonal of `beyond`, relative to these, shape (m,)
+    has_peaks: bool  # whether resonances of the water go on beyond Ω
 
     @property
     def start(self) -> Floats:
@@ -105,17 +95,11 @@ class DampingTail:
 
 @dataclass(frozen=True, kw_only=True)
 class RadiationMemory:
-    """K of m motions as k exponentials, SI units.
+    """K of m motions as k exponentials, SI units."""
 
-    Attributes:
-        infinite_frequency_added_mass: a∞, shape (m, m).
-        rates: p, 1/s, with Re p < 0 and Im p ≥ 0, shape (k,).
-        weights: c, shape (k, m, m).
-    """
-
-    infinite_frequency_added_mass: Floats
-    rates: Complexes
-    weights: Complexes
+    infinite_frequency_added_mass: Floats  # a∞, shape (m, m)
+    rates: Complexes  # p, 1/s, with Re p < 0 and Im p ≥ 0, shape (k,)
+    weights: Complexes  # c, shape (k, m, m)
 
     def scaled(self, factor: float) -> RadiationMemory:
         """Return the memory of a multiple of H."""

@@ -13,70 +13,43 @@ from hydroelastic.physics.dofs import Dof
 
 @dataclass(frozen=True, kw_only=True)
 class ImpulseResponseTable:
-    """Impulse response functions of radiation. Shapes: n times, c frequencies, m motions.
+    """Impulse response functions of radiation. Shapes: n times, c frequencies, m motions."""
 
-    Attributes:
-        times: (n,) s, not negative.
-        dofs: m degrees of freedom.
-        impulse_response: (n, m, m) K; entry (i, j) is the force in i after a jump of displacement in j, N/m, of width.
-        infinite_frequency_added_mass: (m, m) a∞.
-        omega: (c,) rad/s.
-        added_mass: (c, m, m) a∞ − (1/ω) ∫ K sin ωt dt.
-        radiation_damping: (c, m, m) ∫ K cos ωt dt.
-        causality_error: (c,) largest difference of a + i b/ω by K and by the solution at that frequency, relative to
-            |a + i b/ω| of both motions there, at least a∞ and K(0)/Ω².
-        ogilvie_error: (c,) the same of a∞ by Ogilvie's relation and by the limit of infinite frequency.
-        impulse_response_error: (n,) estimated error of K, relative to K(0) of both motions.
-        relative_error: the largest of these, or the estimated relative error of H, from which K is made.
-    """
-
-    times: Floats
-    dofs: tuple[Dof, ...]
+    times: Floats  # (n,) s, not negative
+    dofs: tuple[Dof, ...]  # m degrees of freedom
+    # (n, m, m) K; entry (i, j) is the force in i after a jump of displacement in j, N/m, of width
     impulse_response: Floats
-    infinite_frequency_added_mass: Floats
-    omega: Floats
-    added_mass: Floats
-    radiation_damping: Floats
+    infinite_frequency_added_mass: Floats  # (m, m) a∞
+    omega: Floats  # (c,) rad/s
+    added_mass: Floats  # (c, m, m) a∞ − (1/ω) ∫ K sin ωt dt
+    radiation_damping: Floats  # (c, m, m) ∫ K cos ωt dt
+    # (c,) largest difference of a + i b/ω by K and by the solution at that frequency, relative to |a + i b/ω| of both
+    # motions there, at least a∞ and K(0)/Ω²
     causality_error: Floats
-    ogilvie_error: Floats
-    impulse_response_error: Floats
-    relative_error: float
+    ogilvie_error: Floats  # (c,) the same of a∞ by Ogilvie's relation and by the limit of infinite frequency
+    impulse_response_error: Floats  # (n,) estimated error of K, relative to K(0) of both motions
+    relative_error: float  # the largest of these, or the estimated relative error of H, from which K is made
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotionTable:
-    """Motions in waves over time, from rest. Shapes: n times, w waves, m motions.
+    """Motions in waves over time, from rest. Shapes: n times, w waves, m motions."""
 
-    Attributes:
-        times: (n,) s.
-        dofs: m degrees of freedom.
-        waves_from: the side from which the waves come.
-        wave_omega: (w,) rad/s.
-        wave_amplitude: (w,) m.
-        wave_phase: (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body.
-        ramp: time in which the waves grow, s.
-        initial: (m,) displacement at t = 0, m or rad.
-        elevation: (n,) m, there, without the bodies, as the waves grow.
-        displacement: (n, m) m or rad.
-        velocity: (n, m) m/s or rad/s.
-        steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear
-            there.
-        relative_error: estimated error of the motions by those of forces, added mass and damping, relative to the
-            largest in the same unit.
-    """
-
-    times: Floats
-    dofs: tuple[Dof, ...]
-    waves_from: str
-    wave_omega: Floats
-    wave_amplitude: Floats
-    wave_phase: Floats
-    ramp: float
-    initial: Floats
-    elevation: Floats
-    displacement: Floats
-    velocity: Floats
+    times: Floats  # (n,) s
+    dofs: tuple[Dof, ...]  # m degrees of freedom
+    waves_from: str  # the side from which the waves come
+    wave_omega: Floats  # (w,) rad/s
+    wave_amplitude: Floats  # (w,) m
+    wave_phase: Floats  # (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body
+    ramp: float  # time in which the waves grow, s
+    initial: Floats  # (m,) displacement at t = 0, m or rad
+    elevation: Floats  # (n,) m, there, without the bodies, as the waves grow
+    displacement: Floats  # (n, m) m or rad
+    velocity: Floats  # (n, m) m/s or rad/s
+    # (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear there
     steady: Floats
+    # estimated error of the motions by those of forces, added mass and damping, relative to the largest in the same
+    # unit
     relative_error: float
 
     @property

@@ -28,7 +28,6 @@ def lid_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     about 1e-12.
 
     Args:
-        beam: the problem.
         index: shape of `free_free_shape`, without volume: 1 (pitch) or an elastic one.
 
     Returns:
@@ -73,9 +72,6 @@ def cosine_cube_sum(angle: float) -> float:
     Args:
         angle: α, rad, any.
 
-    Returns:
-        The sum.
-
     Source: L. Lewin, "Polylogarithms and Associated Functions", North Holland, 1981, on Clausen's functions.
     """
     folded = math.fmod(abs(angle), 2 * math.pi)
@@ -91,7 +87,6 @@ def strip_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     """Return ρ/(κ tanh κH), the added mass per length of a travelling wave of the dry wavenumber.
 
     Args:
-        beam: the problem.
         index: elastic shape of `free_free_shape`.
 
     Returns:
@@ -111,9 +106,6 @@ def deep_open_constant(index: int = 2) -> float:
     Args:
         index: shape of `free_free_shape`; heave gives π/8 and pitch 3π/64 (for ∫W² dz = l).
 
-    Returns:
-        The dimensionless constant.
-
     Source: theory of the aquarium, docs, § 2.
     """
     points = 160 + 8 * index
@@ -129,24 +121,11 @@ def deep_open_added_mass(beam: FloatingBeam, index: int = 2) -> float:
     return deep_open_constant(index) * beam.density * beam.length
 
 
-def rigid_heave_added_mass(density: float, length: float) -> float:
-    """Return π/8 ρ l, kg/m²: heave of a flat plate of length l (m), deep water, no walls, ψ = 0 around it."""
-    return math.pi / 8 * density * length
-
-
-def rigid_pitch_added_inertia(density: float, length: float) -> float:
-    """Return π/256 ρ l⁴, kg·m (per metre of width): pitch w = x − x_c of the same plate."""
-    return math.pi / 256 * density * length**4
-
-
 def shallow_constant(index: int = 2) -> float:
     """Return s = σ b (σ b − 2)/b⁴ in m_a = s ρ l²/H for H ≪ l with ψ = 0 around the beam: 0.024578 for mode 1.
 
     Args:
         index: elastic shape of `free_free_shape`; b = κ l.
-
-    Returns:
-        The dimensionless constant.
 
     Source: theory of the aquarium, docs, § 2 (shallow).
     """

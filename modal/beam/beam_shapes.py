@@ -7,16 +7,19 @@ them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import NDArray
 
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
-from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
+from hydroelastic.modal.beam.jointed_modes import jointed_modes
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
 
@@ -28,30 +31,20 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class BeamShapes:
-    """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ.
+    """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ."""
 
-    Attributes:
-        dofs: degree of freedom of each.
-        parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
-        deflections: distances from the left end → w of all shapes, shape (shapes, points).
-        tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
-            shape (shapes, points); of free ends.
-        moments: the same points → bending moments EI w″ of all shapes, shape (shapes, points).
-        shears: the same points → shear forces (EI w″)′, shape (shapes, points).
-        bending: twice the strain energy of each, in units of the beam, shape (shapes,).
-        mass: ∫m wᵢwⱼ, shape (shapes, shapes).
-        wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
-    """
-
-    dofs: tuple[Dof, ...]
+    dofs: tuple[Dof, ...]  # degree of freedom of each
+    # +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam
     parities: tuple[int, ...]
-    deflections: Callable[[Array], Array]
+    deflections: Callable[[Array], Array]  # distances from the left end → w of all shapes, shape (shapes, points)
+    # distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes, shape
+    # (shapes, points); of free ends
     tabulated: Callable[[Array, int], Array]
-    moments: Callable[[Array], Array]
-    shears: Callable[[Array], Array]
-    bending: Array
-    mass: Array
-    wavenumber: float
+    moments: Callable[[Array], Array]  # the same points → bending moments EI w″ of all shapes, shape (shapes, points)
+    shears: Callable[[Array], Array]  # the same points → shear forces (EI w″)′, shape (shapes, points)
+    bending: Array  # twice the strain energy of each, in units of the beam, shape (shapes,)
+    mass: Array  # ∫m wᵢwⱼ, shape (shapes, shapes)
+    wavenumber: float  # the largest wavenumber among them, 1/m or dimensionless as the beam
 
 
 def beam_shapes(beam: Beam, count: int) -> BeamShapes:
@@ -144,20 +137,14 @@ class _AtLastPoints:
 
 def uniform_mass_modes(beam: Beam, count: int) -> JointedModes:
     """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
-    return _jointed_modes(beam.with_uniform_mass(), count)
-
-
-def _jointed_modes(beam: Beam, count: int) -> JointedModes:
-    from hydroelastic.modal.beam.jointed_modes import jointed_modes  # SciPy's linear algebra is slow to import
-
-    return jointed_modes(beam, count)
+    return jointed_modes(beam.with_uniform_mass(), count)
 
 
 def first_dry_eigenvalue(beam: Beam) -> float:
     """λ of the first elastic mode of a beam in vacuum."""
     if not beam.is_uniform:
         rigid = 2 + len(beam.hinges)
-        return float(_jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
+        return float(jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
     shapes = beam_shapes(beam, 3)
     first = shapes.dofs.index(FIRST_ELASTIC)
     return float(shapes.bending[first] / shapes.mass[first, first])
@@ -167,3 +154,22 @@ def first_bending(beam: Beam) -> float:
     """Twice the strain energy of the first elastic shape over ∫w²: EI κ⁴ of a uniform beam."""
     shapes = beam_shapes(beam, 3 + len(beam.hinges))
     return float(shapes.bending[shapes.dofs.index(FIRST_ELASTIC)] / beam.length)
+
+
+def guided_wavenumber(index: int) -> float:
+    """Return κ l = index·π; index 0 is heave."""
+    return index * math.pi
+
+
+def guided_shape(index: int, s: npt.ArrayLike) -> FloatArray:
+    """Return cos(index π s), scaled to ∫₀¹ W² ds = 1.
+
+    Args:
+        index: 0 heave, 1, 2, … elastic.
+        s: z/l along the beam, 0 to 1.
+
+    Returns:
+        Values in the shape of ``s``.
+    """
+    scale = 1.0 if index == 0 else math.sqrt(2.0)
+    return scale * np.cos(index * math.pi * np.asarray(s, dtype=np.float64))

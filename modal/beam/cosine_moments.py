@@ -24,7 +24,6 @@ def cosine_moments(beam: FloatingBeam, index: int, wavenumbers: FloatArray) -> F
     from W'''' = κ⁴ W and free ends; where k is within 0.1 % of κ the quotient is 0/0 and is integrated by Gauss points.
 
     Args:
-        beam: the problem.
         index: shape of `free_free_shape`.
         wavenumbers: k, 1/m, zero allowed, shape (n,).
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from hydroelastic.modal.beam.added_mass import deep_open_added_mass, shallow_added_mass, strip_added_mass
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
-from hydroelastic.modal.beam.grammel import beam_quotients
-from hydroelastic.modal.beam.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.beam.grammel import beam_quotients, best_term, one_term_root, term_tones
 from hydroelastic.modal.beam.rayleigh import rayleigh, rayleigh_dry_mode, rayleigh_lid, rayleigh_pressure_release
 from hydroelastic.modal.estimate import (
     Estimate,
@@ -28,7 +27,6 @@ def all_estimates(beam: FloatingBeam, terms: int = 32) -> dict[str, Estimate]:
     """Return every estimate of the first elastic tone by its name; a method without meaning says so in its note.
 
     Args:
-        beam: the problem.
         terms: N of the N-term forms, at least 1.
 
     Returns:

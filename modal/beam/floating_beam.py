@@ -17,30 +17,19 @@ _ROUNDING = 1e-12
 class FloatingBeam:
     """A uniform elastic beam with free ends on the water of a rectangular tank, per metre of width.
 
-    Attributes:
-        tank_length: L, m.
-        depth: H, m.
-        density: ρ of the liquid, kg/m³.
-        gravity: g, m/s².
-        start: x₁, distance from the left wall to the left tip, m.
-        length: l, m.
-        flexural_rigidity: EI, N·m (N·m² per metre of width).
-        mass_per_length: m, kg/m².
-        hydrostatic: whether the restoring pressure ρ g w acts on the beam; ``False`` is the paper's model.
-
     Raises:
         ValueError: on construction, if a quantity is not finite or not positive, or the beam leaves the tank.
     """
 
-    tank_length: float
-    depth: float
-    density: float
-    gravity: float
-    start: float
-    length: float
-    flexural_rigidity: float
-    mass_per_length: float
-    hydrostatic: bool
+    tank_length: float  # L, m
+    depth: float  # H, m
+    density: float  # ρ of the liquid, kg/m³
+    gravity: float  # g, m/s²
+    start: float  # x₁, distance from the left wall to the left tip, m
+    length: float  # l, m
+    flexural_rigidity: float  # EI, N·m (N·m² per metre of width)
+    mass_per_length: float  # m, kg/m²
+    hydrostatic: bool  # whether the restoring pressure ρ g w acts on the beam; ``False`` is the paper's model
 
     def __post_init__(self) -> None:
         wrong = [
@@ -130,17 +119,6 @@ class FloatingBeam:
             mass_per_length=groups["mass"],
             hydrostatic=self.hydrostatic,
         )
-
-    def dry_angular_frequencies(self, count: int) -> FloatArray:
-        """Return the in-vacuo bending frequencies ω_j = (κ_j l)² √(EI/m)/l², rad/s.
-
-        Args:
-            count: how many, j = 1 … count.
-
-        Returns:
-            Angular frequencies, rad/s, shape (count,).
-        """
-        return free_free_roots(count) ** 2 * math.sqrt(self.flexural_rigidity / self.mass_per_length) / self.length**2
 
     def dry_stiffnesses(self, count: int) -> FloatArray:
         """Return EI κ⁴ + s ρ g of heave, pitch and the elastic shapes, per unit ∫W² dz.

@@ -20,21 +20,13 @@ MOST_NODES = 1500
 
 @dataclass(frozen=True, kw_only=True)
 class WettedShapes:
-    """Dry shapes on the discretised water, dimensionless (l = ρ = g = 1).
+    """Dry shapes on the discretised water, dimensionless (l = ρ = g = 1)."""
 
-    Attributes:
-        water: free-surface block of M, with √weights on both sides, shape (n, n).
-        coupling: −free-surface against shape block, shape (n, shapes).
-        beam: ⟨W_i, N W_j⟩, shape (shapes, shapes).
-        root_weights: √weights of the free-surface nodes, shape (n,).
-        volume: ∫ W ds of the shapes, shape (shapes,).
-    """
-
-    water: FloatArray
-    coupling: FloatArray
-    beam: FloatArray
-    root_weights: FloatArray
-    volume: FloatArray
+    water: FloatArray  # free-surface block of M, with √weights on both sides, shape (n, n)
+    coupling: FloatArray  # −free-surface against shape block, shape (n, shapes)
+    beam: FloatArray  # ⟨W_i, N W_j⟩, shape (shapes, shapes)
+    root_weights: FloatArray  # √weights of the free-surface nodes, shape (n,)
+    volume: FloatArray  # ∫ W ds of the shapes, shape (shapes,)
 
 
 def wetted_shapes(operator: SurfaceOperator, indices: tuple[int, ...]) -> WettedShapes:
@@ -43,9 +35,6 @@ def wetted_shapes(operator: SurfaceOperator, indices: tuple[int, ...]) -> Wetted
     Args:
         operator: N on a `FloatingBeam.dimensionless` problem.
         indices: shapes of `free_free_shape`.
-
-    Returns:
-        The blocks.
     """
     under = operator.on_beam
     loads = np.zeros((len(operator.weights), len(indices)))
@@ -74,7 +63,6 @@ def gravity_added_mass(
     It has poles at the sloshing frequencies of the tank with the beam held still.
 
     Args:
-        beam: the problem.
         squared_frequency: λ = ω², rad²/s², positive.
         indices: shapes of `free_free_shape`, normalised to ∫W² dz = l.
 
@@ -109,7 +97,6 @@ def gravity_tones(beam: FloatingBeam, indices: tuple[int, ...], squared_frequenc
     It is a Ritz solution of the exact problem: each λ lies above the exact one of the same index.
 
     Args:
-        beam: the problem.
         indices: shapes of `free_free_shape`; 2 (dry mode 1) must be among them.
         squared_frequency: largest λ of interest, rad²/s²; sets the resolution.
 

@@ -43,22 +43,15 @@ _SAMPLES = np.linspace(0.005, 0.995, 100)
 
 @dataclass(frozen=True, kw_only=True)
 class JointedModes:
-    """The lowest dry modes, of unit generalized mass ∫m w² = 1: heave, pitch, one for each hinge, then elastic ones.
-
-    Attributes:
-        beam: the beam.
-        squared_frequencies: λ of each mode, (rad/s)²; exactly 0 for the rigid ones; shape (modes,).
-        parities: +1 or −1 for each mode of a beam that is its own mirror image, by which w(l − x) = ± w(x); all +1 for
-            any other beam, whose mirror image has the mirrored shapes.
-        deflections: Legendre coefficients of w on each span, arrays (modes, degree + 1).
-        curvatures: those of w″.
-    """
+    """The lowest dry modes, of unit generalized mass ∫m w² = 1: heave, pitch, one for each hinge, then elastic ones."""
 
     beam: Beam
-    squared_frequencies: FloatArray
+    squared_frequencies: FloatArray  # λ of each mode, (rad/s)²; exactly 0 for the rigid ones; shape (modes,)
+    # +1 or −1 for each mode of a beam that is its own mirror image, by which w(l − x) = ± w(x); all +1 for any other
+    # beam, whose mirror image has the mirrored shapes
     parities: tuple[int, ...]
-    deflections: tuple[FloatArray, ...]
-    curvatures: tuple[FloatArray, ...]
+    deflections: tuple[FloatArray, ...]  # Legendre coefficients of w on each span, arrays (modes, degree + 1)
+    curvatures: tuple[FloatArray, ...]  # those of w″
 
     @property
     def rigid(self) -> int:
@@ -132,7 +125,6 @@ def jointed_modes(beam: Beam, count: int) -> JointedModes:
     """Return the first dry modes of a beam.
 
     Args:
-        beam: the beam.
         count: how many, rigid ones included.
 
     Returns:

@@ -41,7 +41,6 @@ def pressure_release_added_mass(
         count: number of shapes of `free_free_shape`, heave and pitch included.
         terms: length of the expansion; if ``None``, from the gaps, the depth and ``count``, so that it is right to
             rounding unless the beam touches a wall.
-        most: the longest expansion.
 
     Returns:
         Added mass per length for ∫W² dz = l, kg/m², shape (count, count), symmetric positive definite.

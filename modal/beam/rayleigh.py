@@ -11,7 +11,7 @@ from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.gravity_added_mass import gravity_tones
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
-from hydroelastic.modal.beam.tone_pencil import Tones
+from hydroelastic.modal.beam.tone_pencil import Tones, pencil_modes
 from hydroelastic.modal.estimate import (
     Estimate,
     NoEstimateError,
@@ -19,14 +19,10 @@ from hydroelastic.modal.estimate import (
     frequency_from_added_mass,
     without_number,
 )
-from hydroelastic.modal.symmetric_pencil import pencil_modes
 
 
 def rayleigh_lid(beam: FloatingBeam) -> Estimate:
     """Return the estimate with dry mode 1 under a rigid lid (η = 0 on the water around the beam).
-
-    Args:
-        beam: the problem.
 
     Returns:
         ω² = (EI κ⁴ + s ρ g)/(m + m_a) with `lid_added_mass`.
@@ -45,33 +41,8 @@ def rayleigh_lid(beam: FloatingBeam) -> Estimate:
     )
 
 
-def rayleigh_pressure_release_dry_mode(beam: FloatingBeam) -> Estimate:
-    """Return the estimate with dry mode 1 alone and ψ = 0 around the beam; without recoil it bounds nothing.
-
-    Args:
-        beam: the problem.
-
-    Returns:
-        The estimate; without a number if the beam covers the tank or a gap is too narrow.
-
-    Source: theory of the aquarium, docs, § 2 (psi0).
-    """
-    note = (
-        "Dry mode 1 alone, ψ = 0 around the beam: neglects gravity waves, recoil of the rigid body and the change of "
-        "shape."
-    )
-    try:
-        added_mass = pressure_release_added_mass(beam, RIGID_SHAPES + 1)[2, 2]
-    except NoEstimateError as reason:
-        return without_number(note, str(reason))
-    return _from_added_mass(beam, float(added_mass), note, False)
-
-
 def rayleigh_pressure_release(beam: FloatingBeam) -> Estimate:
     """Return the three-shape Ritz estimate (heave, pitch, dry mode 1) with ψ = 0 around the beam.
-
-    Args:
-        beam: the problem.
 
     Returns:
         The estimate; it lies above the tone of the same index of the problem with ψ = 0 around the beam.
@@ -97,7 +68,6 @@ def pressure_release_tones(beam: FloatingBeam, count: int) -> Tones:
     """Return the tones of the first dry shapes with ψ = 0 around the beam; many shapes give the exact limit g → 0.
 
     Args:
-        beam: the problem.
         count: number of shapes, heave and pitch included, at least 3.
 
     Returns:
@@ -118,9 +88,6 @@ def pressure_release_tones(beam: FloatingBeam, count: int) -> Tones:
 def rayleigh_dry_mode(beam: FloatingBeam) -> Estimate:
     """Return the estimate with dry mode 1 alone on water with gravity waves: ω² = (EI κ⁴ + s ρ g)/(m + m_a(ω²)).
 
-    Args:
-        beam: the problem.
-
     Returns:
         The root with the largest participation of the beam.
 
@@ -135,9 +102,6 @@ def rayleigh_dry_mode(beam: FloatingBeam) -> Estimate:
 
 def rayleigh(beam: FloatingBeam) -> Estimate:
     """Return the Rayleigh–Ritz estimate with heave, pitch and dry mode 1 on water with gravity waves.
-
-    Args:
-        beam: the problem.
 
     Returns:
         The tone with the largest participation of dry mode 1; an upper bound of the exact mode of its index.

@@ -31,20 +31,13 @@ class SurfaceOperator:
 
     ∫∫ f(x) N(x, x') g(x') dx dx' ≈ (weights·f)ᵀ kernel (weights·g), exact to rounding for functions that are
     smooth on each side of the tips, singular behaviour at the tips included.
-
-    Attributes:
-        positions: nodes x, m, shape (n,).
-        weights: quadrature weights of ∫₀ᴸ dx, m, shape (n,).
-        kernel: symmetric matrix, shape (n, n), dimensionless.
-        on_beam: which nodes lie under the beam, shape (n,).
-        beam_coordinate: s = (x − x₁)/l of those nodes, shape (on_beam.sum(),).
     """
 
-    positions: FloatArray
-    weights: FloatArray
-    kernel: FloatArray
-    on_beam: np.ndarray
-    beam_coordinate: FloatArray
+    positions: FloatArray  # nodes x, m, shape (n,)
+    weights: FloatArray  # quadrature weights of ∫₀ᴸ dx, m, shape (n,)
+    kernel: FloatArray  # symmetric matrix, shape (n, n), dimensionless
+    on_beam: np.ndarray  # which nodes lie under the beam, shape (n,)
+    beam_coordinate: FloatArray  # s = (x − x₁)/l of those nodes, shape (on_beam.sum(),)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +56,6 @@ def nodes_needed(beam: FloatingBeam, squared_frequency: float, largest_index: in
     and the wavelength 2π/κ of the shapes under the beam.
 
     Args:
-        beam: the problem.
         squared_frequency: largest λ = ω² that must be resolved, rad²/s².
         largest_index: largest index of `free_free_shape` that must be resolved.
 
@@ -91,11 +83,7 @@ def surface_operator(beam: FloatingBeam, node_counts: list[int]) -> SurfaceOpera
     by the Martensen–Kussmaul rule for the logarithm on the doubled circle, on nodes graded toward every segment end.
 
     Args:
-        beam: the problem.
         node_counts: nodes on the left gap, beam and right gap (`nodes_needed`).
-
-    Returns:
-        The operator.
 
     Source: theory of the aquarium, docs, § 0 (kernel) and § 3 (method B); R. Kress, "Linear Integral Equations".
     """

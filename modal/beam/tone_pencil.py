@@ -6,40 +6,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.modal.symmetric_pencil import pencil_modes
 from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
 class TonePencil:
-    """Energies of surface and beam coordinates v: potential ½ vᵀKv, kinetic ½ λ vᵀMv, volume cᵀv = 0.
+    """Energies of surface and beam coordinates v: potential ½ vᵀKv, kinetic ½ λ vᵀMv, volume cᵀv = 0."""
 
-    Attributes:
-        stiffness: the diagonal of K, shape (n,); a zero belongs to a rigid motion.
-        mass: M, liquid and structure, shape (n, n).
-        volume: c, the displaced volume of each coordinate, shape (n,), or ``None`` where it is not conserved.
-        elastic: position of dry mode 1 in v.
-    """
-
-    stiffness: FloatArray
-    mass: FloatArray
+    stiffness: FloatArray  # the diagonal of K, shape (n,); a zero belongs to a rigid motion
+    mass: FloatArray  # M, liquid and structure, shape (n, n)
+    # c, the displaced volume of each coordinate, shape (n,), or ``None`` where it is not conserved
     volume: FloatArray | None
-    elastic: int
+    elastic: int  # position of dry mode 1 in v
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tones:
-    """Modes of a `TonePencil` without its zero modes.
+    """Modes of a `TonePencil` without its zero modes."""
 
-    Attributes:
-        squared_frequencies: λ = ω², ascending, shape (modes,).
-        participation: p_n = (e₁ᵀ K φ_n)² of the K-normalised dry mode 1, shape (modes,); they sum to one.
-        elastic_index: which mode has the largest participation, counted from 1.
-    """
-
-    squared_frequencies: FloatArray
-    participation: FloatArray
-    elastic_index: int
+    squared_frequencies: FloatArray  # λ = ω², ascending, shape (modes,)
+    participation: FloatArray  # p_n = (e₁ᵀ K φ_n)² of the K-normalised dry mode 1, shape (modes,); they sum to one
+    elastic_index: int  # which mode has the largest participation, counted from 1
 
     @property
     def elastic_squared_frequency(self) -> float:
@@ -106,3 +93,18 @@ def _volume_free(volume: FloatArray) -> FloatArray:
     reflector[pivot] += np.copysign(1.0, normal[pivot])
     householder = np.eye(len(volume)) - 2 * np.outer(reflector, reflector) / (reflector @ reflector)
     return np.delete(householder, pivot, axis=1)
+
+
+def pencil_modes(matrix: FloatArray, positive: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return λ and v of A v = λ B v: with B = L Lᵀ those of L⁻¹ A L⁻ᵀ.
+
+    Args:
+        matrix: A, symmetric, shape (n, n).
+        positive: B, symmetric positive definite, shape (n, n).
+
+    Returns:
+        λ, ascending, shape (n,), and the v as columns, vᵀBv = 1, shape (n, n).
+    """
+    factor = np.linalg.cholesky(positive)
+    eigenvalues, vectors = np.linalg.eigh(np.linalg.solve(factor, np.linalg.solve(factor, matrix).T))
+    return eigenvalues, np.linalg.solve(factor.T, vectors)

@@ -30,36 +30,23 @@ _TINY = 1e-300
 
 @dataclass(frozen=True, kw_only=True)
 class BoxModes:
-    """The lowest modes in which the float heaves, symmetric about the middle of the tank.
+    """The lowest modes in which the float heaves, symmetric about the middle of the tank."""
 
-    Attributes:
-        omega: angular frequencies, rad/s, ascending, shape (n,).
-        modal_mass: generalised masses for a unit of heave, kg/m, shape (n,).
-        participation: share of heave in the potential energy, c'/(ω² M); over all modes it sums to 1, shape (n,).
-        waves: frequencies σ of the waves that the float couples, k = 2nπ/L, without it, rad/s, shape (n,).
-    """
-
-    omega: FloatArray
-    modal_mass: FloatArray
+    omega: FloatArray  # angular frequencies, rad/s, ascending, shape (n,)
+    modal_mass: FloatArray  # generalised masses for a unit of heave, kg/m, shape (n,)
+    # share of heave in the potential energy, c'/(ω² M); over all modes it sums to 1, shape (n,)
     participation: FloatArray
-    waves: FloatArray
+    waves: FloatArray  # frequencies σ of the waves that the float couples, k = 2nπ/L, without it, rad/s, shape (n,)
 
 
 @dataclass(frozen=True, kw_only=True)
 class FloatMode:
-    """The mode in which the float takes the largest part, see `float_mode`.
+    """The mode in which the float takes the largest part, see `float_mode`."""
 
-    Attributes:
-        omega: angular frequency, rad/s.
-        index: its number among the symmetric modes, from 1.
-        modal_mass: generalised mass for a unit of heave, kg/m.
-        participation: share of heave in its potential energy.
-    """
-
-    omega: float
-    index: int
-    modal_mass: float
-    participation: float
+    omega: float  # angular frequency, rad/s
+    index: int  # its number among the symmetric modes, from 1
+    modal_mass: float  # generalised mass for a unit of heave, kg/m
+    participation: float  # share of heave in its potential energy
 
 
 def box_modes(body: FloatInTank, count: int, *, volume_term: bool = True) -> BoxModes:
@@ -74,7 +61,6 @@ def box_modes(body: FloatInTank, count: int, *, volume_term: bool = True) -> Box
 
     Args:
         body: the problem; two liquids need a rigid lid.
-        count: how many modes.
         volume_term: whether the mean level may rise; without it the volume is not kept, which is wrong.
 
     Source: two liquids, docs, § 6.

@@ -54,7 +54,6 @@ def liquid_inertia(profile: Profile, layers: TwoLayers, tank_length: float, wave
 
     Args:
         profile: the section, bounded.
-        layers: the liquids.
         tank_length: L, m.
         wavenumbers: k_n, 1/m, up to k · extent = 50 at least, shape (n,).
 

@@ -31,7 +31,6 @@ def complex_wave_moment(profile: Profile, argument: npt.ArrayLike) -> ComplexArr
     the asymptotic series.
 
     Args:
-        profile: the section.
         argument: κ with |arg κ| ≤ `MOST_ANGLE`, not checked.
 
     Returns:

@@ -11,21 +11,19 @@ from hydroelastic.modal.floats.box import float_mode
 from hydroelastic.modal.floats.in_tank import FloatInTank
 from hydroelastic.modal.floats.rigid_limits import section_heave_added_mass
 from hydroelastic.modal.floats.thin_float import thin_float_added_mass
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
 class FloatEstimate:
-    """One estimate of the heave of a float; none of them bounds an exact frequency.
+    """One estimate of the heave of a float; none of them bounds an exact frequency."""
 
-    Attributes:
-        omega: angular frequency, rad/s, or ``None`` where the method has no meaning.
-        added_mass: c/ω² − m, kg/m, c the hydrostatic stiffness without walls, or ``None``.
-        note: what the method neglects, or why there is no number.
-    """
-
-    omega: float | None
-    added_mass: float | None
-    note: str
+    omega: float | None  # angular frequency, rad/s, or ``None`` where the method has no meaning
+    added_mass: float | None  # c/ω² − m, kg/m, c the hydrostatic stiffness without walls, or ``None``
+    note: str  # what the method neglects, or why there is no number
 
     def __post_init__(self) -> None:
         for name in ("omega", "added_mass"):
@@ -36,9 +34,6 @@ class FloatEstimate:
 
 def all_float_estimates(body: FloatInTank) -> dict[str, FloatEstimate]:
     """Return every estimate of the heave of a float by its name; a method without meaning says so in its note.
-
-    Args:
-        body: the problem.
 
     Returns:
         ``hydrostatic`` (no added mass), ``high_frequency`` (exact added mass of the section without waves and walls),
@@ -98,3 +93,28 @@ def _thin_added_mass(body: FloatInTank) -> float:
 
 def _from_added_mass(body: FloatInTank, added_mass: float, note: str) -> FloatEstimate:
     return FloatEstimate(omega=math.sqrt(body.stiffness / (body.mass + added_mass)), added_mass=added_mass, note=note)
+
+
+def float_estimates(tank: Tank) -> dict[int, dict[str, FloatEstimate]]:
+    """Estimates of heave, by name, of every float that heaves at the lowest level, as if alone, by its index."""
+    if len(tank.layers) == 1 and tank.top != "free":
+        # The theories of one liquid know its free surface only.
+        return {}
+    layers, lowest = two_layers(tank), tank.levels[0].name
+    return {
+        index: all_float_estimates(_float_in_tank(tank, layers, body))
+        for index, body in tank.floats.items()
+        if "heave" in body.motions and body.level == lowest
+    }
+
+
+def _float_in_tank(tank: Tank, layers: TwoLayers, body: RigidFloat) -> FloatInTank:
+    rest = body.hydrostatics
+    return FloatInTank(
+        layers=layers,
+        tank_length=tank.length,
+        position=0.5 * sum(rest.waterplane),
+        mass=rest.mass,
+        stiffness=float(body.stiffness[0, 0]),
+        profile=body.hull.profile if rest.reference_level == rest.level else None,
+    )

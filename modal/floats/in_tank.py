@@ -16,23 +16,16 @@ _ROUNDING = 1e-12
 class FloatInTank:
     """A rigid float at the level y = 0 of a rectangular tank, per metre of width.
 
-    Attributes:
-        layers: the liquids; without an upper one y = 0 is a free surface.
-        tank_length: L, m.
-        position: distance from the left wall to the middle of the float's waterline, m.
-        mass: m, kg/m.
-        stiffness: hydrostatic stiffness in heave c = (ρ₂ − ρ₁) g B, N/m², B the width of the waterline.
-        profile: the section of a symmetric float that rests with its level y = 0 at y = 0; ``None`` for any other.
-
     Raises:
         ValueError: on construction, if a quantity is out of its range or the float leaves the tank.
     """
 
-    layers: TwoLayers
-    tank_length: float
-    position: float
-    mass: float
-    stiffness: float
+    layers: TwoLayers  # the liquids; without an upper one y = 0 is a free surface
+    tank_length: float  # L, m
+    position: float  # distance from the left wall to the middle of the float's waterline, m
+    mass: float  # m, kg/m
+    stiffness: float  # hydrostatic stiffness in heave c = (ρ₂ − ρ₁) g B, N/m², B the width of the waterline
+    # the section of a symmetric float that rests with its level y = 0 at y = 0; ``None`` for any other
     profile: Profile | None = None
 
     def __post_init__(self) -> None:

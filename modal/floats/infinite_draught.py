@@ -13,18 +13,12 @@ from hydroelastic.physics.profiles import Profile
 
 @dataclass(frozen=True, kw_only=True)
 class InfiniteDraughtFloat:
-    """The float of infinite draught after a release in infinitely deep liquids, by the closed form.
+    """The float of infinite draught after a release in infinitely deep liquids, by the closed form."""
 
-    Attributes:
-        cut: estimate of the largest |f − f_∞| over all times, f = s/s₀ of the float with its end and f_∞ without; at
-            most 2.
-        resonances: ω − iγ, rad/s, of heave and of the second pole, of motions e^{−iωt}.
-        residues: f contains 2 Re(residue e^{−iωt}) of each.
-    """
-
+    # estimate of the largest |f − f_∞| over all times, f = s/s₀ of the float with its end and f_∞ without; at most 2
     cut: float
-    resonances: tuple[complex, complex]
-    residues: tuple[complex, complex]
+    resonances: tuple[complex, complex]  # ω − iγ, rad/s, of heave and of the second pole, of motions e^{−iωt}
+    residues: tuple[complex, complex]  # f contains 2 Re(residue e^{−iωt}) of each
 
 
 def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraughtFloat:

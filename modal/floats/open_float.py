@@ -19,24 +19,16 @@ from hydroelastic.physics.tank import Tank
 
 @dataclass(frozen=True, kw_only=True)
 class OpenFloatEstimate:
-    """Heave of a thin float in open water; relative errors O(τ) in a, b and γ, O(τ²) in Re ω.
+    """Heave of a thin float in open water; relative errors O(τ) in a, b and γ, O(τ²) in Re ω."""
 
-    Attributes:
-        mass: m, kg/m, that of the displaced liquids.
-        stiffness: c, N/m².
-        radiation: added mass and damping at the given frequencies.
-        resonance: ω − iγ, rad/s, of motions e^{−iωt}; ``None`` where there is none, see the note.
-        crossover_time: t, s, after which the motion of a released float is the tail −(4/π) b/(g*t²); ``None`` at finite
-            depth, and where the tail exceeds the oscillation at all times.
-        note: what the method neglects, and why a value is missing.
-    """
-
-    mass: float
-    stiffness: float
-    radiation: HeaveRadiation
-    resonance: complex | None
+    mass: float  # m, kg/m, that of the displaced liquids
+    stiffness: float  # c, N/m²
+    radiation: HeaveRadiation  # added mass and damping at the given frequencies
+    resonance: complex | None  # ω − iγ, rad/s, of motions e^{−iωt}; ``None`` where there is none, see the note
+    # t, s, after which the motion of a released float is the tail −(4/π) b/(g*t²); ``None`` at finite depth, and where
+    # the tail exceeds the oscillation at all times
     crossover_time: float | None
-    note: str
+    note: str  # what the method neglects, and why a value is missing
 
 
 def open_float_estimate(profile: Profile, layers: TwoLayers, omega: npt.ArrayLike) -> OpenFloatEstimate:
@@ -71,7 +63,6 @@ def released_float(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> 
     """Return s(t)/s₀ of a thin float released from rest in deep open water at rest.
 
     Args:
-        profile: the section.
         layers: the liquids; two need a rigid lid or an infinite depth above.
         time: t ≥ 0, s.
     """

@@ -16,19 +16,12 @@ _LEAST_STEP = 1e-15
 
 @dataclass(frozen=True, kw_only=True)
 class RigidAddedMass:
-    """Added masses of a section for motions about a point of its vertical axis, per metre of width.
+    """Added masses of a section for motions about a point of its vertical axis, per metre of width."""
 
-    Attributes:
-        heave: kg/m.
-        sway: kg/m.
-        roll: kg·m, for a roll anticlockwise.
-        sway_roll: kg, their coupling.
-    """
-
-    heave: float
-    sway: float
-    roll: float
-    sway_roll: float
+    heave: float  # kg/m
+    sway: float  # kg/m
+    roll: float  # kg·m, for a roll anticlockwise
+    sway_roll: float  # kg, their coupling
 
     def about(self, height: float) -> RigidAddedMass:
         """Return the added masses for a roll about a point that is ``height`` above the present one, m.
@@ -106,7 +99,6 @@ def section_heave_added_mass(profile: Profile, density_below: float, density_abo
     with the complete elliptic integrals of the parameter m.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
     """

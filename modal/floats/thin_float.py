@@ -14,20 +14,13 @@ class ThinConstants:
     """Dimensionless constants of a thin float in unbounded liquids; lengths in h, time in √(h/g*).
 
     g* = g (ρ₂ − ρ₁)/(ρ₂ + ρ₁). Neither the densities nor the mass, which is that of the displaced liquids, enter.
-
-    Attributes:
-        slenderness: τ = b/h, half-width over half-height, to which the theory is an expansion.
-        area_factor: S = ∫ω dy/(b h) over the upper half.
-        inertia_factor: J/b².
-        frequency_squared: Ω² h/g* = 1/(S + τJ/(πb²)).
-        coupling: ε = (2τ/π) Ω² h/g*, the strength of the waves that the float makes.
     """
 
-    slenderness: float
-    area_factor: float
-    inertia_factor: float
-    frequency_squared: float
-    coupling: float
+    slenderness: float  # τ = b/h, half-width over half-height, to which the theory is an expansion
+    area_factor: float  # S = ∫ω dy/(b h) over the upper half
+    inertia_factor: float  # J/b²
+    frequency_squared: float  # Ω² h/g* = 1/(S + τJ/(πb²))
+    coupling: float  # ε = (2τ/π) Ω² h/g*, the strength of the waves that the float makes
 
 
 def thin_constants(profile: Profile) -> ThinConstants:
@@ -48,7 +41,6 @@ def thin_float_mass(profile: Profile, density_below: float, density_above: float
     """Return m = (ρ₁ + ρ₂) 2bhS, kg/m, with which the float rests with its level y = 0 at the interface.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³; 0 for a single liquid.
     """
@@ -69,18 +61,8 @@ def thin_float_stiffness(profile: Profile, density_below: float, density_above: 
     """Return c = 2b (ρ₂ − ρ₁) g, N/m², the hydrostatic stiffness in heave between levels of unlimited length.
 
     Args:
-        profile: the section.
         density_below: ρ₂, kg/m³.
         density_above: ρ₁, kg/m³.
         gravity: g, m/s².
     """
     return 2 * profile.half_width * (density_below - density_above) * gravity
-
-
-def thin_float_frequency(profile: Profile, density_below: float, density_above: float, gravity: float) -> float:
-    """Return Ω = √(c/(m + a_∞)), rad/s, of the float with the mass of the displaced liquids.
-
-    Arguments as in `thin_float_stiffness`. Waves damp the motion, and shift its frequency in the second order of τ.
-    """
-    reduced_gravity = gravity * (density_below - density_above) / (density_below + density_above)
-    return math.sqrt(thin_constants(profile).frequency_squared * reduced_gravity / profile.half_height)

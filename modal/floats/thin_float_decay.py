@@ -39,15 +39,10 @@ _BISECTIONS = 6
 
 @dataclass(frozen=True, kw_only=True)
 class FreeMotion:
-    """Motion after a release from rest, relative to the first displacement.
+    """Motion after a release from rest, relative to the first displacement."""
 
-    Attributes:
-        heave: f = s/s₀, in the shape of the times.
-        error: estimate of its absolute error, of the same shape.
-    """
-
-    heave: FloatArray
-    error: FloatArray
+    heave: FloatArray  # f = s/s₀, in the shape of the times
+    error: FloatArray  # estimate of its absolute error, of the same shape
 
 
 def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
@@ -61,7 +56,6 @@ def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
     of the other, with the rounding of the phase Im(z) θ. The ray holds the late tail with full relative precision.
 
     Args:
-        profile: the section.
         time: θ = t √(g*/h), from 0 to `LATEST`.
 
     Source: open water, docs, thin float.
@@ -88,7 +82,6 @@ def free_motion_tail(profile: Profile, time: npt.ArrayLike) -> FloatArray:
     """Return −(4τ/π)/θ² = −(4/π) b/(g* t²), to which f tends at late times: neither mass nor shape matters.
 
     Args:
-        profile: the section.
         time: θ > 0.
 
     Source: F. Ursell, J. Fluid Mech. 19 (1964), for the half-immersed circle; open water, docs, thin float.

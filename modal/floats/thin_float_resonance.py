@@ -31,22 +31,16 @@ _WHOLE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class FreePole:
-    """A pole of the Laplace transform F(z) of the free motion f(θ), θ = t √(g*/h); its conjugate is one as well.
+    """A pole of the Laplace transform F(z) of the free motion f(θ), θ = t √(g*/h); its conjugate is one as well."""
 
-    Attributes:
-        frequency: z = p √(h/g*), Re z < 0 < Im z: the motion contains 2 Re(residue e^{zθ}).
-        residue: that of F.
-    """
-
-    frequency: complex
-    residue: complex
+    frequency: complex  # z = p √(h/g*), Re z < 0 < Im z: the motion contains 2 Re(residue e^{zθ})
+    residue: complex  # that of F
 
 
 def characteristic(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     """Return D(z) = z² (1 + ε G(z)) + Ω²h/g*, inertia with waves and stiffness of the float, whose zeros are its poles.
 
     Args:
-        profile: the section.
         frequency: z, as for `wave_integral`.
     """
     constants = thin_constants(profile)
@@ -88,7 +82,6 @@ def pole_count(profile: Profile, angle: float) -> int:
     ``angle`` = π, along the upper side of the cut, it is 2.
 
     Args:
-        profile: the section.
         angle: between π/2 and `greatest_angle`; no pole may lie on that ray.
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):

@@ -58,7 +58,6 @@ def wave_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
     """Return R(κ)/b = ∫ q e^{−κy} dy over the upper half, y in units of h: what the float sends into waves of κ = kh.
 
     Args:
-        profile: the section.
         argument: κ ≥ 0.
 
     Returns:
@@ -110,7 +109,6 @@ def sine_moment(profile: Profile, argument: npt.ArrayLike) -> FloatArray:
     """Return Q_s(κ)/b = ∫ q sin κy dy over the upper half, y in units of h.
 
     Args:
-        profile: the section.
         argument: κ > 0, shape (n,).
     """
     check_pointed(profile)
@@ -138,7 +136,6 @@ def flux_rule(profile: Profile, smallest: float = 1.0) -> tuple[FloatArray, Floa
     """Return a quadrature rule for ∫ q(y) f(y) dy/b over the upper half, y in units of h.
 
     Args:
-        profile: the section.
         smallest: relative distance from the pointed end on which f still changes; panels are graded down to it.
 
     An exponential without end, or with a very distant one, is taken as far as e^{−y} reaches in double precision.

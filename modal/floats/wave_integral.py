@@ -42,7 +42,6 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     = ±π/4, away from the pole −z², by the trapezoidal rule in ln κ, whose error falls exponentially with the step.
 
     Args:
-        profile: the section.
         frequency: z = p √(h/g*) ≠ 0, p in e^{pt}, |arg z| up to `greatest_angle`; z = iω is the limit from Re z > 0,
             and on the cut z < 0 of the exponential it is that from above.
 

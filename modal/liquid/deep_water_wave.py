@@ -17,15 +17,11 @@ class DeepWaterWave:
 
         k = ω²(ρ₂ + ρ₁)/(g (ρ₂ − ρ₁)).
 
-    Attributes:
-        layers: the liquids, all of infinite depth.
-        squared: λ = ω², rad²/s², complex.
-
     Source: H. Lamb, "Hydrodynamics", art. 231, continued in ω².
     """
 
-    layers: TwoLayers
-    squared: complex
+    layers: TwoLayers  # the liquids, all of infinite depth
+    squared: complex  # λ = ω², rad²/s², complex
 
     @property
     def wavenumber(self) -> complex:

@@ -31,16 +31,6 @@ def sloshing_frequencies(tank_length: float, depth: float, gravity: float, count
     return np.sqrt(gravity * k * np.tanh(k * depth))
 
 
-def deep_sloshing_frequencies(tank_length: float, gravity: float, count: int) -> FloatArray:
-    """Return the limit ω_n = √(g k_n) for H ≫ L, rad/s (arguments as in `sloshing_frequencies`)."""
-    return np.sqrt(gravity * wavenumbers(tank_length, count))
-
-
-def shallow_sloshing_frequencies(tank_length: float, depth: float, gravity: float, count: int) -> FloatArray:
-    """Return the limit ω_n = k_n √(g H) for k_n H ≪ 1, rad/s (arguments as in `sloshing_frequencies`)."""
-    return wavenumbers(tank_length, count) * np.sqrt(gravity * depth)
-
-
 def guided_cover_frequencies(beam: FloatingBeam, count: int) -> FloatArray:
     """Return the exact frequencies of a beam over the whole tank with guided ends, w' = w''' = 0 at the walls:
 

@@ -19,18 +19,12 @@ class TravellingWave:
     """A wave ψ = e^{±ikx} Z(y) e^{−iωt}.
 
     Z = 1 in the lower liquid at y = 0; for the surface wave over two liquids at the top of the upper one.
-
-    Attributes:
-        layers: the liquids.
-        branch: which of the waves of its frequency it is.
-        omega: ω, rad/s.
-        wavenumber: k, 1/m.
     """
 
-    layers: TwoLayers
-    branch: Branch
-    omega: float
-    wavenumber: float
+    layers: TwoLayers  # the liquids
+    branch: Branch  # which of the waves of its frequency it is
+    omega: float  # ω, rad/s
+    wavenumber: float  # k, 1/m
 
     @property
     def on_top(self) -> bool:

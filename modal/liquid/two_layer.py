@@ -22,24 +22,16 @@ With a top that is not free only the interface moves: ``internal`` between two l
 class TwoLayers:
     """A lower liquid 2 in −h₂ < y < 0 over a flat bottom, and an upper, lighter liquid 1 in 0 < y < h₁.
 
-    Attributes:
-        density_below: ρ₂, kg/m³.
-        density_above: ρ₁ < ρ₂, kg/m³; 0 leaves one liquid with an ordinary free surface, whatever the top.
-        depth_below: h₂, m; ``math.inf`` for deep liquid.
-        depth_above: h₁, m; ``math.inf`` for deep liquid; not used for ρ₁ = 0.
-        gravity: g, m/s².
-        top: what closes the upper liquid: a free surface, a rigid lid, or ψ = 0.
-
     Raises:
         ValueError: on construction, if a quantity is out of its range.
     """
 
-    density_below: float
-    density_above: float = 0.0
-    depth_below: float
-    depth_above: float = math.inf
-    gravity: float
-    top: LayerTop = "rigid"
+    density_below: float  # ρ₂, kg/m³
+    density_above: float = 0.0  # ρ₁ < ρ₂, kg/m³; 0 leaves one liquid with an ordinary free surface, whatever the top
+    depth_below: float  # h₂, m; ``math.inf`` for deep liquid
+    depth_above: float = math.inf  # h₁, m; ``math.inf`` for deep liquid; not used for ρ₁ = 0
+    gravity: float  # g, m/s²
+    top: LayerTop = "rigid"  # what closes the upper liquid: a free surface, a rigid lid, or ψ = 0
 
     def __post_init__(self) -> None:
         for name in ("density_below", "gravity"):
@@ -66,18 +58,13 @@ class TwoLayers:
 class InterfacePlate:
     """A thin elastic plate that covers the interface, its ends guided by the walls, per metre of width.
 
-    Attributes:
-        flexural_rigidity: EI, N·m, not negative.
-        mass_per_length: m, kg/m², not negative.
-        hydrostatic: whether (ρ₂ − ρ₁) g w restores it.
-
     Raises:
         ValueError: on construction, if a quantity is out of its range.
     """
 
-    flexural_rigidity: float
-    mass_per_length: float
-    hydrostatic: bool = True
+    flexural_rigidity: float  # EI, N·m, not negative
+    mass_per_length: float  # m, kg/m², not negative
+    hydrostatic: bool = True  # whether (ρ₂ − ρ₁) g w restores it
 
     def __post_init__(self) -> None:
         for name in ("flexural_rigidity", "mass_per_length"):
@@ -87,17 +74,11 @@ class InterfacePlate:
 
 @dataclass(frozen=True, kw_only=True)
 class LayerMode:
-    """A standing wave of a closed tank.
+    """A standing wave of a closed tank."""
 
-    Attributes:
-        omega: angular frequency, rad/s.
-        branch: which wave of its wavenumber.
-        number: n of the wavenumber nπ/L.
-    """
-
-    omega: float
-    branch: Branch
-    number: int
+    omega: float  # angular frequency, rad/s
+    branch: Branch  # which wave of its wavenumber
+    number: int  # n of the wavenumber nπ/L
 
 
 def interface_frequencies(
@@ -116,7 +97,6 @@ def interface_frequencies(
     ρ₁ → ρ₂, and for layers and waves of any ratio.
 
     Args:
-        layers: the liquids.
         wavenumber: k > 0, 1/m.
         plate: a plate on the interface, or ``None``.
 
@@ -147,9 +127,7 @@ def tank_modes(
     """Return the lowest modes of the closed tank, k = nπ/L, of all branches together.
 
     Args:
-        layers: the liquids.
         tank_length: L, m.
-        count: how many modes.
         plate: a plate from wall to wall with guided ends, or ``None``.
 
     Returns:

@@ -35,19 +35,12 @@ _EIGENFUNCTIONS, _REPLACED_BY, _DOUBLINGS = 64, 10, 28
 
 @dataclass(frozen=True, kw_only=True)
 class VerticalPoles:
-    """f(k²) ≈ Σ c_j/(k² + d_j) for one depth.
+    """f(k²) ≈ Σ c_j/(k² + d_j) for one depth."""
 
-    Attributes:
-        weights: c_j, positive; the first one is 1/H.
-        shifts: d_j, ascending; the first one is 0.
-        wavenumber: k_w of the shortest wave of interest.
-        error: ε, with f − Σ c_j/(k² + d_j) ≤ ε (1 + (k/k_w)²) f for all k from the lowest one on.
-    """
-
-    weights: FloatArray
-    shifts: FloatArray
-    wavenumber: float
-    error: float
+    weights: FloatArray  # c_j, positive; the first one is 1/H
+    shifts: FloatArray  # d_j, ascending; the first one is 0
+    wavenumber: float  # k_w of the shortest wave of interest
+    error: float  # ε, with f − Σ c_j/(k² + d_j) ≤ ε (1 + (k/k_w)²) f for all k from the lowest one on
 
     def values(self, wavenumbers: FloatArray) -> FloatArray:
         """Return Σ c_j/(k² + d_j) for some k > 0, shape (k,)."""

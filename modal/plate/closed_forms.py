@@ -23,17 +23,11 @@ from hydroelastic.physics.tank import ROUND_OFF
 
 @dataclass(frozen=True, kw_only=True)
 class ExactMode:
-    """A mode of a closed form.
+    """A mode of a closed form."""
 
-    Attributes:
-        formula: what it is.
-        order: order of the second direction.
-        omega: ω, rad/s.
-    """
-
-    formula: str
-    order: int
-    omega: float
+    formula: str  # what it is
+    order: int  # order of the second direction
+    omega: float  # ω, rad/s
 
 
 def exact_frequencies(tank: LevelTank, count: int) -> tuple[ExactMode, ...]:

@@ -42,23 +42,14 @@ _LIMIT = "the limit of infinite frequency in deep water without walls: neglects 
 
 @dataclass(frozen=True, kw_only=True)
 class PlateEstimate:
-    """An estimate of one motion of a plate.
+    """An estimate of one motion of a plate."""
 
-    Attributes:
-        name: of the estimate.
-        plate: index of the plate.
-        motion: the first elastic tone, or a rigid motion.
-        omega: ω, rad/s.
-        added_mass_per_area: m_a, kg/m².
-        note: what it neglects.
-    """
-
-    name: str
-    plate: int
-    motion: EstimatedMotion
-    omega: float
-    added_mass_per_area: float
-    note: str
+    name: str  # of the estimate
+    plate: int  # index of the plate
+    motion: EstimatedMotion  # the first elastic tone, or a rigid motion
+    omega: float  # ω, rad/s
+    added_mass_per_area: float  # m_a, kg/m²
+    note: str  # what it neglects
 
 
 def plate_estimates(tank: LevelTank) -> tuple[PlateEstimate, ...]:

@@ -34,27 +34,16 @@ _ORDERS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class PlateLine:
-    """A plate of one order on its line, dimensionless.
+    """A plate of one order on its line, dimensionless."""
 
-    Attributes:
-        start: its left or inner edge; 0 of a disc.
-        end: its right or outer edge.
-        round: whether the line is a radius.
-        transverse: n of a disc or ring, k_y of a strip.
-        poisson_ratio: ν.
-        edges: what holds both edges; the first one of a disc is not used.
-        rigidity: factor of the bending energy.
-        tension: T of a further energy ∫T|∇w|².
-    """
-
-    start: float
-    end: float
-    round: bool
-    transverse: float
+    start: float  # its left or inner edge; 0 of a disc
+    end: float  # its right or outer edge
+    round: bool  # whether the line is a radius
+    transverse: float  # n of a disc or ring, k_y of a strip
     poisson_ratio: float
-    edges: tuple[Edge, Edge]
-    rigidity: float = 1.0
-    tension: float = 0.0
+    edges: tuple[Edge, Edge]  # what holds both edges; the first one of a disc is not used
+    rigidity: float = 1.0  # factor of the bending energy
+    tension: float = 0.0  # T of a further energy ∫T|∇w|²
 
     @property
     def is_disc(self) -> bool:
@@ -153,20 +142,13 @@ class LineModes:
 
     Rigid motions have unit mean square. Elastic ones are scaled to the bending energy of the first one at unit mean
     square, so that the high ones, whose κ⁴ exceed the first by 10¹², keep their digits.
-
-    Attributes:
-        plate: the plate.
-        coefficients: of `PlateLine.raw`, shape (polynomials, modes).
-        rigid: number of rigid motions.
-        squares: ∫W² over the line, with weight r of a radius, shape (modes,).
-        bending: bending energy ∫(ΔW)² … likewise, zero of rigid motions; κ⁴ = bending/squares; shape (modes,).
     """
 
     plate: PlateLine
-    coefficients: FloatArray
-    rigid: int
-    squares: FloatArray
-    bending: FloatArray
+    coefficients: FloatArray  # of `PlateLine.raw`, shape (polynomials, modes)
+    rigid: int  # number of rigid motions
+    squares: FloatArray  # ∫W² over the line, with weight r of a radius, shape (modes,)
+    bending: FloatArray  # bending energy ∫(ΔW)² … likewise, zero of rigid motions; κ⁴ = bending/squares; shape (modes,)
 
     @property
     def count(self) -> int:

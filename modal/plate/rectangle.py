@@ -25,17 +25,11 @@ ClassParity: TypeAlias = tuple[AxisParity, AxisParity]
 
 @dataclass(frozen=True, kw_only=True)
 class RectangleModes:
-    """Dry modes of a rectangle of unit flexural rigidity, w = Σ c_mn p_m(x) p_n(y), with ∫w² = 1.
+    """Dry modes of a rectangle of unit flexural rigidity, w = Σ c_mn p_m(x) p_n(y), with ∫w² = 1."""
 
-    Attributes:
-        size: its sides a and b.
-        stiffness: κ = a(w, w), ascending, exactly 0 of rigid motions, shape (modes,).
-        coefficients: c in orthonormal Legendre polynomials of the sides, shape (modes, m, n).
-    """
-
-    size: tuple[float, float]
-    stiffness: NDArray[np.float64]
-    coefficients: NDArray[np.float64]
+    size: tuple[float, float]  # its sides a and b
+    stiffness: NDArray[np.float64]  # κ = a(w, w), ascending, exactly 0 of rigid motions, shape (modes,)
+    coefficients: NDArray[np.float64]  # c in orthonormal Legendre polynomials of the sides, shape (modes, m, n)
 
     def deflection(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return all shapes at points, in coordinates from the centre, shape (modes, points)."""

@@ -41,8 +41,6 @@ def roll_knots(ship: Ship, train: WaveTrain, start: float, end: float, per_perio
     decays.
 
     Args:
-        ship: the ship.
-        train: the waves.
         start: first time, s, from 0.
         end: last time, s.
         per_period: how many in each period, at least.

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from hydroelastic.modal.damped_pair import damped_pair
-from hydroelastic.modal.roll.wave import response_from_rest
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.ship import Ship
 from hydroelastic.physics.wave import WaveTrain
@@ -17,33 +18,21 @@ from hydroelastic.physics.wave import WaveTrain
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollMotion:
-    """Motion at given times, all in the shape of the times.
+    """Motion at given times, all in the shape of the times."""
 
-    Attributes:
-        times: t, s.
-        angle: φ, rad; 0 before t = 0, and so are rate and acceleration.
-        rate: φ', rad/s.
-        acceleration: φ'', rad/s².
-    """
-
-    times: FloatArray
-    angle: FloatArray
-    rate: FloatArray
-    acceleration: FloatArray
+    times: FloatArray  # t, s
+    angle: FloatArray  # φ, rad; 0 before t = 0, and so are rate and acceleration
+    rate: FloatArray  # φ', rad/s
+    acceleration: FloatArray  # φ'', rad/s²
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LinearRollPath:
-    """The whole motion of a ship on a train in closed form: its state at the beginning of each wave.
-
-    Attributes:
-        ship: the ship.
-        train: the waves.
-        states: φ and φ' at ``train.starts``, shape (waves + 1, 2): before each wave, and before the free motion.
-    """
+    """The whole motion of a ship on a train in closed form: its state at the beginning of each wave."""
 
     ship: Ship
-    train: WaveTrain
+    train: WaveTrain  # the waves
+    # φ and φ' at ``train.starts``, shape (waves + 1, 2): before each wave, and before the free motion
     states: FloatArray
 
     def motion(self, times: npt.ArrayLike) -> RollMotion:
@@ -113,7 +102,6 @@ def roll_response(
     of the largest angle so far, and of the phase kt in a long free motion.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         times: t, s, in any order and of any shape.
         angle: φ at t = 0, rad.
@@ -128,3 +116,42 @@ def _free_motion(ship: Ship, times: FloatArray) -> tuple[FloatArray, FloatArray]
     pair = damped_pair(k, n, times)
     cosine, sine = pair[0][0], pair[1][0]
     return np.stack([cosine + n * sine, -(k**2) * sine]), np.stack([sine, cosine - n * sine])
+
+
+def response_from_rest(
+    natural_frequency: float, damping: float, frequencies: ArrayLike, times: ArrayLike
+) -> NDArray[np.complex128]:
+    """Return y(t) of y'' + 2ny' + k²y = k² e^{iωt} from rest: Im y answers k² sin ωt, and its rate is ω Re y.
+
+    y is k² times the divided difference of e^{zt} at iω and at the roots z₁, z₂ of z² + 2nz + k²,
+
+        y = k² (E − S)/(iω − z₂),    E = (e^{z₁t} − e^{iωt})/(z₁ − iω),    S = (e^{z₁t} − e^{z₂t})/(z₁ − z₂).
+
+    The amplitude k²/(k² − ω² + 2inω) of the steady motion does not occur, which is infinite in resonance without
+    damping and takes all digits near it. z₁ is the root next to iω, so that iω − z₂ is not small; beyond critical
+    damping it may be either. E goes by expm1, and S is regular at critical damping.
+
+    Args:
+        natural_frequency: k, rad/s.
+        damping: n, 1/s, from 0.
+        frequencies: ω, rad/s, shape (times,).
+        times: t, s, from 0, shape (times,). Beyond a few periods of the wave the phase ωt loses digits.
+
+    Returns:
+        y, shape (times,).
+    """
+    frequencies, times = np.asarray(frequencies, float), np.asarray(times, float)
+    k, n = natural_frequency, damping
+    root = cmath.sqrt((k - n) * (k + n))
+    if n < k:
+        near, far = -n + 1j * root.real, -n - 1j * root.real
+    else:
+        near, far = complex(-(k**2) / (n + root.imag)), complex(-(n + root.imag))
+    apart = near - 1j * frequencies
+    # Where both coincide E is t e^{iωt}.
+    exponent = apart * times
+    small = np.abs(exponent) < np.finfo(float).tiny
+    ratio = np.where(small, 1.0, np.expm1(exponent) / np.where(small, 1.0, exponent))
+    forced = times * np.exp(1j * frequencies * times) * ratio
+    second = damped_pair(k, n, times)[1][0]
+    return k**2 * (forced - second) / (1j * frequencies - far)

@@ -34,24 +34,16 @@ class RollIntegrationError(ValueError):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class QuadraticRollPath:
-    """The whole motion of a ship with quadratic damping.
-
-    Attributes:
-        ship: the ship.
-        train: the waves.
-        end: last time, s.
-        solutions: φ and φ' as functions of the time since each wave began, the free motion last.
-        angle_error: largest absolute error of the angle, rad: estimated as the largest difference from a motion of ten
-            times the tolerance, and therefore too large.
-        rate_error: that of the rate, rad/s.
-    """
+    """The whole motion of a ship with quadratic damping."""
 
     ship: Ship
-    train: WaveTrain
-    end: float
-    solutions: tuple[OdeSolution, ...]
+    train: WaveTrain  # the waves
+    end: float  # last time, s
+    solutions: tuple[OdeSolution, ...]  # φ and φ' as functions of the time since each wave began, the free motion last
+    # largest absolute error of the angle, rad: estimated as the largest difference from a motion of ten times the
+    # tolerance, and therefore too large
     angle_error: float
-    rate_error: float
+    rate_error: float  # that of the rate, rad/s
 
     def motion(self, times: npt.ArrayLike) -> RollMotion:
         """Return angle, rate and acceleration.
@@ -85,7 +77,6 @@ def quadratic_roll_path(
     are refined until two motions agree.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         end: last time, s.
         angle: φ at t = 0, rad.

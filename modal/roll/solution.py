@@ -21,23 +21,14 @@ _COMPARED_PER_PERIOD = 16
 
 @dataclass(frozen=True, kw_only=True)
 class RollSolution:
-    """The motion of a ship on a train of waves.
-
-    Attributes:
-        ship: the ship.
-        train: the waves.
-        motion: angle, rate and acceleration at the times asked.
-        statistics: extremes from t = 0 to the last of these times.
-        angle_error: estimated largest absolute error of the angle, rad, of the integration or by rounding.
-        ship_error: what an error of the ship's natural frequency and damping adds to it, rad.
-    """
+    """The motion of a ship on a train of waves."""
 
     ship: Ship
-    train: WaveTrain
-    motion: RollMotion
-    statistics: RollStatistics
-    angle_error: float
-    ship_error: float
+    train: WaveTrain  # the waves
+    motion: RollMotion  # angle, rate and acceleration at the times asked
+    statistics: RollStatistics  # extremes from t = 0 to the last of these times
+    angle_error: float  # estimated largest absolute error of the angle, rad, of the integration or by rounding
+    ship_error: float  # what an error of the ship's natural frequency and damping adds to it, rad
 
     @property
     def relative_error(self) -> float:
@@ -59,7 +50,6 @@ def roll_solution(
     """Return the motion of a ship: in closed form, or with quadratic damping by integration in time.
 
     Args:
-        ship: the ship.
         train: the waves; the motion after them is free.
         times: t, s, from 0, ascending, shape (times,).
         angle: φ at t = 0, rad.

@@ -18,27 +18,19 @@ _CELLS_PER_PERIOD, _GAUSS_POINTS = 4, 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollStatistics:
-    """Statistics of a motion between two times.
+    """Statistics of a motion between two times."""
 
-    Attributes:
-        largest_time: when |φ| is largest, s, the first and last time included.
-        largest_angle: φ there, rad, with its sign.
-        extreme_times: times between the first and the last at which the rate changes its sign, s, shape (extremes,).
-        extreme_angles: φ there, rad, shape (extremes,).
-        swing_times: times of the swings, s, shape (swings,). The zeros of φ cut the time into pieces; the swing of a
-            piece is its largest |φ|. One at the last time is left out, for it may still grow, and one at the first time
-            unless that is t = 0, as in a release. Where φ touches 0 without a change of sign nothing is cut.
-        swing_angles: φ there, rad, shape (swings,).
-        root_mean_square: √(∫φ² dt/duration), rad.
-    """
-
-    largest_time: float
-    largest_angle: float
+    largest_time: float  # when |φ| is largest, s, the first and last time included
+    largest_angle: float  # φ there, rad, with its sign
+    # times between the first and the last at which the rate changes its sign, s, shape (extremes,)
     extreme_times: FloatArray
-    extreme_angles: FloatArray
+    extreme_angles: FloatArray  # φ there, rad, shape (extremes,)
+    # times of the swings, s, shape (swings,). The zeros of φ cut the time into pieces; the swing of a piece is its
+    # largest |φ|. One at the last time is left out, for it may still grow, and one at the first time unless that is t =
+    # 0, as in a release. Where φ touches 0 without a change of sign nothing is cut.
     swing_times: FloatArray
-    swing_angles: FloatArray
-    root_mean_square: float
+    swing_angles: FloatArray  # φ there, rad, shape (swings,)
+    root_mean_square: float  # √(∫φ² dt/duration), rad
 
     def swings_above(self, level: float) -> int:
         """Return how many swings have |φ| > level, rad: each piece between zeros of φ counts once, however often it

@@ -90,7 +90,6 @@ def transfer(string: HangingString, exponents: ArrayLike, positions: ArrayLike) 
     """Return h = I₀(z r)/I₀(z), z = R√(p² + 2αp): the string moves as h e^{pt} under f = e^{pt}.
 
     Args:
-        string: the string.
         exponents: p, 1/s, complex, shape (exponents,) or one.
         positions: x, m, shape (positions,) or one.
 
@@ -108,7 +107,6 @@ def steady_amplitude(string: HangingString, omega: float, positions: ArrayLike) 
     """Return A(x)/Δ = |J₀(μ r)/J₀(μ)|, μ = R√(ω² − 2iαω), of the steady motion under f = Δ sin ωt.
 
     Args:
-        string: the string.
         omega: ω, rad/s, not negative.
         positions: x, m, shape (positions,) or one.
 

@@ -20,17 +20,11 @@ from hydroelastic.physics.string_forcing import Forcing
 
 @dataclass(frozen=True, kw_only=True)
 class FreeMotionJumps:
-    """Jumps u (m) of q and v (m/s) of q', as products: modes × factors by factors × starts.
+    """Jumps u (m) of q and v (m/s) of q', as products: modes × factors by factors × starts."""
 
-    Attributes:
-        factors: powers of 1/Ω², and gains of exponentials, shape (modes, factors).
-        displacements: of u, shape (factors, starts).
-        velocities: of v, shape (factors, starts).
-    """
-
-    factors: NDArray[np.float64]
-    displacements: NDArray[np.float64]
-    velocities: NDArray[np.float64]
+    factors: NDArray[np.float64]  # powers of 1/Ω², and gains of exponentials, shape (modes, factors)
+    displacements: NDArray[np.float64]  # of u, shape (factors, starts)
+    velocities: NDArray[np.float64]  # of v, shape (factors, starts)
 
     def at(self, start: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return u and v at one start, each of shape (modes,)."""
@@ -49,9 +43,7 @@ def free_motion_jumps(
     They are those of the forced part with the opposite sign.
 
     Args:
-        string: the string.
         forcing: the motion of the upper end.
-        parts: its exponentials.
         frequencies: Ω of the modes, 1/s, shape (modes,).
         first_mode: number of the first of these modes.
     """

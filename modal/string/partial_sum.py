@@ -19,7 +19,6 @@ def partial_sum(
     """Return the forced part plus the sum of the first modes, cut sharply.
 
     Args:
-        string: the string.
         motion: that of the upper end.
         positions: x, m, shape (positions,) or one.
         times: t, s, from 0 and rising, shape (times,) or one.

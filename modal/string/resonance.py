@@ -19,24 +19,16 @@ from hydroelastic.physics.string import HangingString
 
 @dataclass(frozen=True, kw_only=True)
 class StringResonance:
-    """The resonance of one mode.
+    """The resonance of one mode."""
 
-    Attributes:
-        mode: its number k, counted from 1.
-        natural_frequency: Ω_k, 1/s, without damping.
-        free_frequency: √(Ω_k² − α²) of the damped free motion, 1/s; 0 for an aperiodic mode.
-        peak_frequency: ω of the largest amplitude at the free end between the neighbouring antiresonances, 1/s; Ω_k
-            without damping, and not a number where drag leaves no peak.
-        peak_amplitude: that amplitude over Δ; infinite without damping: the motion grows as t.
-        estimate: 1/(|J₁(μ_k)| R α), which the peak tends to with little damping.
-    """
-
-    mode: int
-    natural_frequency: float
-    free_frequency: float
+    mode: int  # its number k, counted from 1
+    natural_frequency: float  # Ω_k, 1/s, without damping
+    free_frequency: float  # √(Ω_k² − α²) of the damped free motion, 1/s; 0 for an aperiodic mode
+    # ω of the largest amplitude at the free end between the neighbouring antiresonances, 1/s; Ω_k without damping, and
+    # not a number where drag leaves no peak
     peak_frequency: float
-    peak_amplitude: float
-    estimate: float
+    peak_amplitude: float  # that amplitude over Δ; infinite without damping: the motion grows as t
+    estimate: float  # 1/(|J₁(μ_k)| R α), which the peak tends to with little damping
 
 
 def string_resonance(string: HangingString, number: int) -> StringResonance:

@@ -18,9 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.string.closed_form import participations, relative_roots
-from hydroelastic.modal.string.modes import free_coordinates, free_motion_jumps
+from hydroelastic.modal.string.modes import FreeMotionJumps, free_coordinates, free_motion_jumps
 from hydroelastic.modal.string.quasistatic import Exponential, exponentials, forced_part
-from hydroelastic.modal.string.rounding import Rounding
 from hydroelastic.modal.string.truncation import Truncation, fewest_terms, weights
 from hydroelastic.physics.string import HangingString
 from hydroelastic.physics.string_forcing import Forcing
@@ -40,17 +39,12 @@ LEAST_OF_MOST_TERMS, LARGEST_OF_MOST_TERMS = 12, 16
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StringResponse:
-    """Displacements of a string.
+    """Displacements of a string."""
 
-    Attributes:
-        values: U(x, t), m, shape (positions, times).
-        errors: estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding.
-        terms: the largest number of modes that was used.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # U(x, t), m, shape (positions, times)
+    # estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding
     errors: NDArray[np.float64]
-    terms: int
+    terms: int  # the largest number of modes that was used
 
 
 def string_response(
@@ -65,7 +59,6 @@ def string_response(
     """Return the displacement U(x, t) of a string that is at rest before its upper end moves.
 
     Args:
-        string: the string.
         motion: f(t) of its upper end, from `physics/string_motions.py`.
         positions: x above the free lower end, m, shape (positions,) or one.
         times: t, s, not negative, shape (times,) or one, in any order.
@@ -137,42 +130,25 @@ def _affordable(series: int, needed: float) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class _Octave:
-    """Modes from one number to twice that: shapes at all positions, motions at the times that need them.
+    """Modes from one number to twice that: shapes at all positions, motions at the times that need them."""
 
-    Attributes:
-        numbers: k, shape (modes,).
-        shapes: B_k, shape (positions, modes).
-        coordinates: q_k, shape (modes, times).
-    """
-
-    numbers: NDArray[np.int_]
-    shapes: NDArray[np.float64]
-    coordinates: NDArray[np.float64]
+    numbers: NDArray[np.int_]  # k, shape (modes,)
+    shapes: NDArray[np.float64]  # B_k, shape (positions, modes)
+    coordinates: NDArray[np.float64]  # q_k, shape (modes, times)
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Tile:
-    """A grid of rising positions and times that is small enough to be computed at once.
-
-    Attributes:
-        string: the string.
-        forcing: the motion of its upper end.
-        parts: its exponentials.
-        ratios: r, rising, shape (positions,).
-        times: s, rising, shape (times,).
-        tolerance: of the truncation error, m.
-        needed: the fewest modes at each time, shape (times,).
-        most_terms: largest number of modes.
-    """
+    """A grid of rising positions and times that is small enough to be computed at once."""
 
     string: HangingString
-    forcing: Forcing
+    forcing: Forcing  # the motion of its upper end
     parts: Sequence[Exponential]
-    ratios: NDArray[np.float64]
-    times: NDArray[np.float64]
-    tolerance: float
-    needed: NDArray[np.float64]
-    most_terms: int
+    ratios: NDArray[np.float64]  # r, rising, shape (positions,)
+    times: NDArray[np.float64]  # s, rising, shape (times,)
+    tolerance: float  # of the truncation error, m
+    needed: NDArray[np.float64]  # the fewest modes at each time, shape (times,)
+    most_terms: int  # largest number of modes
 
     def response(self) -> StringResponse:
         """Return values and errors on the grid."""
@@ -243,3 +219,61 @@ def _sum_where(
             )
             values[strip, columns] = np.where(ready[strip, columns], total, 0.0)
     return values
+
+
+class Rounding:
+    """Estimates of rounding: each mode has its own error, of 4ε (1 + J/16 + Ωt/3) of its size after J starts.
+
+    The amplitude is rounded at every start, and may be so to the same side; the phase is rounded with Ωt.
+
+    Args:
+        starts: times at which the motion of the upper end starts anew, s, shape (starts,).
+        ratios: r of the positions, shape (positions,).
+        times: s, shape (times,).
+    """
+
+    def __init__(
+        self,
+        *,
+        string: HangingString,
+        starts: NDArray[np.float64],
+        ratios: NDArray[np.float64],
+        times: NDArray[np.float64],
+    ) -> None:
+        self._damping = string.damping
+        past = np.searchsorted(starts, times, side="right")
+        self._steps = 1 + past / 16
+        # Positions are rounded too: they are as far as R.
+        self._phase = (times + string.travel_time) / 3
+        self._decay = np.exp(-2 * string.damping * (times - starts[past - 1]))
+        # Squares of the sizes of aperiodic modes; of oscillating ones; of these times Ω.
+        self._sums = np.zeros((3, len(ratios)))
+
+    def add(self, frequencies: NDArray[np.float64], jumps: FreeMotionJumps, shapes: NDArray[np.float64]) -> None:
+        """Take in modes: their frequencies (1/s), jumps, and shapes (positions, modes)."""
+        excess = (frequencies - self._damping) * (frequencies + self._damping)
+        oscillating = excess > 0
+        # Near critical damping S is at most 1/(eα).
+        inverse = 1 / np.sqrt(np.maximum(np.abs(excess), self._damping**2 / 4))
+        # Of S stands v + αu; of aperiodic modes αu is kept by C + αS, which falls slowly from 1.
+        kept = self._damping * oscillating
+        pushed = np.concatenate([jumps.factors, jumps.factors * kept[:, None]], axis=1) * inverse[:, None]
+        sizes = 2 * (
+            _squares(jumps.factors, jumps.displacements)
+            + _squares(pushed, np.concatenate([jumps.velocities, jumps.displacements]))
+        )
+        moving = np.where(oscillating, sizes, 0.0)
+        self._sums += np.stack([np.where(oscillating, 0.0, sizes), moving, moving * frequencies**2]) @ (shapes**2).T
+
+    def at(self, rows: NDArray[np.int_], columns: NDArray[np.int_]) -> NDArray[np.float64]:
+        """Return estimates at points, m, shape (points,), given by indices of positions and times, both of shape
+        (points,)."""
+        aperiodic, oscillating, turning = self._sums[:, rows]
+        moving = oscillating * self._steps[columns] ** 2 + turning * self._phase[columns] ** 2
+        squares = aperiodic * self._steps[columns] ** 2 + self._decay[columns] * moving
+        return np.asarray(4 * EPS * np.sqrt(squares))
+
+
+def _squares(factors: NDArray[np.float64], jumps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return Σ over starts of (factors · jumps)², shape (modes,)."""
+    return np.asarray(np.maximum(((factors @ (jumps @ jumps.T)) * factors).sum(axis=1), 0.0))

@@ -27,17 +27,11 @@ _ROUNDINGS = 4.0
 
 @dataclass(frozen=True, kw_only=True)
 class FreeMotions:
-    """Free motions e^{pt} of a string.
+    """Free motions e^{pt} of a string."""
 
-    Attributes:
-        roots: p, 1/s, of conjugate pairs the one above the real axis, shape (motions,).
-        errors: estimated absolute errors of the roots, 1/s, shape (motions,).
-        shapes: at positions along the string, largest real value 1, shape (motions, positions).
-    """
-
-    roots: NDArray[np.complex128]
-    errors: Floats
-    shapes: Floats
+    roots: NDArray[np.complex128]  # p, 1/s, of conjugate pairs the one above the real axis, shape (motions,)
+    errors: Floats  # estimated absolute errors of the roots, 1/s, shape (motions,)
+    shapes: Floats  # at positions along the string, largest real value 1, shape (motions, positions)
 
     @property
     def frequencies(self) -> Floats:
@@ -52,30 +46,19 @@ class FreeMotions:
 
 @dataclass(frozen=True, kw_only=True)
 class StringSolution:
-    """Motion of a hanging string whose upper end is moved, by series or as a field.
-
-    Attributes:
-        string: the string.
-        positions: heights above the free end at rest, m, shape (positions,).
-        times: s, shape (times,).
-        displacement: U, m, shape (positions, times).
-        absolute_error: estimated error of each displacement, m, of the same shape.
-        free_motions: by ascending magnitude of their roots, with shapes at the positions.
-        tolerance: asked, relative to the largest displacement, and to each frequency.
-        front_margin: part of R from a wave front within which displacements are not judged by the tolerance: a jump has
-            no value, and a series or a field solution only a blurred one.
-        size: terms of a series; cells, degree, dofs and steps of a field solution.
-    """
+    """Motion of a hanging string whose upper end is moved, by series or as a field."""
 
     string: HangingString
-    positions: Floats
-    times: Floats
-    displacement: Floats
-    absolute_error: Floats
-    free_motions: FreeMotions
-    tolerance: float
+    positions: Floats  # heights above the free end at rest, m, shape (positions,)
+    times: Floats  # s, shape (times,)
+    displacement: Floats  # U, m, shape (positions, times)
+    absolute_error: Floats  # estimated error of each displacement, m, of the same shape
+    free_motions: FreeMotions  # by ascending magnitude of their roots, with shapes at the positions
+    tolerance: float  # asked, relative to the largest displacement, and to each frequency
+    # part of R from a wave front within which displacements are not judged by the tolerance: a jump has no value, and a
+    # series or a field solution only a blurred one
     front_margin: float
-    size: dict[str, int]
+    size: dict[str, int]  # terms of a series; cells, degree, dofs and steps of a field solution
 
     @cached_property
     def beside_fronts(self) -> NDArray[np.bool_]:
@@ -124,8 +107,6 @@ def series_solution(
     """Sum the series of a uniform string without a tip mass.
 
     Args:
-        string: the string.
-        motion: of its upper end.
         positions: heights x above the free end, m, shape (positions,).
         times: t, s, shape (times,).
         tolerance: asked error of the displacement, relative to the largest one.

@@ -22,6 +22,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import fftconvolve
 from scipy.special import erfc
 
 from hydroelastic.modal.string.modes import free_motion_jumps
@@ -64,21 +65,13 @@ def fewest_terms(
 
 @dataclass(frozen=True, kw_only=True)
 class Truncation:
-    """Estimates of the truncation error of sums of modes.
-
-    Attributes:
-        string: the string.
-        forcing: the motion of the upper end.
-        parts: its exponentials.
-        ratios: r of the positions, shape (positions,).
-        times: s, rising, shape (times,).
-    """
+    """Estimates of the truncation error of sums of modes."""
 
     string: HangingString
-    forcing: Forcing
+    forcing: Forcing  # the motion of the upper end
     parts: Sequence[Exponential]
-    ratios: NDArray[np.float64]
-    times: NDArray[np.float64]
+    ratios: NDArray[np.float64]  # r of the positions, shape (positions,)
+    times: NDArray[np.float64]  # s, rising, shape (times,)
 
     def errors(self, terms: int, rows: NDArray[np.int_], columns: NDArray[np.int_]) -> NDArray[np.float64]:
         """Return estimates of the error of N = terms, m.
@@ -129,17 +122,11 @@ class Truncation:
 
 @dataclass(frozen=True, kw_only=True)
 class _Tail:
-    """The tail from N/2 on, for terms that are 1 there and decay as k^{−p}.
+    """The tail from N/2 on, for terms that are 1 there and decay as k^{−p}."""
 
-    Attributes:
-        terms: N.
-        decay: p.
-        damping: αR, dimensionless.
-    """
-
-    terms: int
-    decay: float
-    damping: float
+    terms: int  # N
+    decay: float  # p
+    damping: float  # αR, dimensionless
 
     def at(self, distances: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the bound at distances d from a front."""
@@ -166,7 +153,6 @@ class _Tail:
     ) -> NDArray[np.float64]:
         """Return the same for many starts, by a table of cells in time: no less than the largest value in each cell."""
         # A fifth of a second to import, which all that imports hydroelastic.modal would pay.
-        from scipy.signal import fftconvolve
 
         low, high = -2.0, max(float(arrivals.max(initial=0.0)), float(starts[-1])) + 2
         per_unit = int(min(CELLS_PER_UNIT * self.terms, max(16, MOST_CELLS / (high - low))))

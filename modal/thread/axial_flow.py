@@ -70,24 +70,15 @@ def string_in_axial_flow(
 
 @dataclass(frozen=True, kw_only=True)
 class AxialFlowBeam:
-    """A beam in a stream along it, straight at rest.
+    """A beam in a stream along it, straight at rest."""
 
-    Attributes:
-        length: L, m.
-        flexural_rigidity: EI, N m².
-        mass: m, kg/m.
-        added_mass: m_a, kg/m.
-        tension: T, N, constant; at a free end a dead force.
-        ends: both pinned, both clamped, or clamped upstream and free downstream.
-        taper: f, of a free end: 0 blunt, no force at the end (the same as a pipe that ejects); 1 ideally tapered.
-    """
-
-    length: float
-    flexural_rigidity: float
-    mass: float
-    added_mass: float
-    tension: float = 0.0
-    ends: Ends = "pinned"
+    length: float  # L, m
+    flexural_rigidity: float  # EI, N m²
+    mass: float  # m, kg/m
+    added_mass: float  # m_a, kg/m
+    tension: float = 0.0  # T, N, constant; at a free end a dead force
+    ends: Ends = "pinned"  # both pinned, both clamped, or clamped upstream and free downstream
+    # f, of a free end: 0 blunt, no force at the end (the same as a pipe that ejects); 1 ideally tapered
     taper: float = 0.0
 
     def __post_init__(self) -> None:

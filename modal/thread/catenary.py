@@ -21,19 +21,12 @@ _SERIES_TERMS = 8
 
 @dataclass(frozen=True)
 class _Plane:
-    """Plane of the chord and the load; the load acts along −up.
+    """Plane of the chord and the load; the load acts along −up."""
 
-    Attributes:
-        level: unit vector in the plane, across the load.
-        up: unit vector against the load.
-        span: component of the chord along level, m, not negative.
-        rise: component of the chord along up, m.
-    """
-
-    level: FloatArray
-    up: FloatArray
-    span: float
-    rise: float
+    level: FloatArray  # unit vector in the plane, across the load
+    up: FloatArray  # unit vector against the load
+    span: float  # component of the chord along level, m, not negative
+    rise: float  # component of the chord along up, m
 
 
 def _plane(chord: FloatArray, load: FloatArray) -> _Plane:

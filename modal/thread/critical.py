@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.modal.thread.shape import NoAsymptoticError, NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread_load import UP, ThreadLoad
@@ -55,23 +52,6 @@ def critical_direction(load: ThreadLoad, point: ArrayLike) -> tuple[FloatArray, 
         raise NoTensionError("nothing pulls at the free tail: there is no weight, and no friction along the stream")
     strongest = int(np.argmax(np.abs(pulls)))
     return tau[strongest] * np.sign(pulls[strongest]), float(abs(pulls[strongest]))
-
-
-def critical_angle(weight: float, normal_load: float) -> float:
-    """Return f_c below the stream at which a heavy towed thread is straight: cos f_c = √(1 + a²) − a, a = w/(2Rₙ).
-
-    Args:
-        weight: w, N/m; of a buoyant thread the angle is above the stream.
-        normal_load: Rₙ = kₙ U², N/m, not negative.
-    """
-    if not normal_load >= 0:
-        raise ValueError(f"normal_load is {normal_load}: it must not be negative")
-    if weight == 0 and normal_load == 0:
-        raise ValueError("weight and normal_load are 0: there is no critical angle without a load")
-    # cos = Rₙ/(√(Rₙ² + w²/4) + |w|/2); the half angle of it is exact when the angle is small.
-    cosine = normal_load / (math.hypot(normal_load, 0.5 * weight) + 0.5 * abs(weight))
-    sine_squared = abs(weight) * cosine / normal_load if normal_load else 1.0
-    return math.atan2(math.sqrt(sine_squared), cosine)
 
 
 def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLike = (0.0, 0.0, 0.0)) -> ThreadShape:

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.shape import AsymptoticThread, NoAsymptoticError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread_load import UP, ThreadLoad
 

@@ -10,45 +10,30 @@ from typing import Any, Literal, TypeAlias
 
 from numpy.typing import NDArray
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.library_warnings import suppressed_library_warnings
-from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.modal.thread.shape import NoAsymptoticError, NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread import Thread
 
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadEstimate:
-    """An estimate.
+    """An estimate."""
 
-    Attributes:
-        name: name of the theory.
-        order: order of the last terms that are kept; ``None`` of a solution that is exact.
-        parameter: what must be small, in words; empty of an exact solution.
-        small: its dimensionless value; 0 of an exact solution.
-        seconds: computing time, s.
-    """
-
-    name: str
-    order: int | None
-    parameter: str = ""
-    small: float = 0.0
-    seconds: float = 0.0
+    name: str  # name of the theory
+    order: int | None  # order of the last terms that are kept; ``None`` of a solution that is exact
+    parameter: str = ""  # what must be small, in words; empty of an exact solution
+    small: float = 0.0  # its dimensionless value; 0 of an exact solution
+    seconds: float = 0.0  # computing time, s
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShapeEstimate(ThreadEstimate):
-    """Positions and contact forces at the places that were asked for, or at both ends only.
+    """Positions and contact forces at the places that were asked for, or at both ends only."""
 
-    Attributes:
-        shape: the thread.
-        position_truncation: estimate of the largest error of a position, m.
-        force_truncation: the same of a contact force, N.
-    """
-
-    shape: ThreadShape
-    position_truncation: float = 0.0
-    force_truncation: float = 0.0
+    shape: ThreadShape  # the thread
+    position_truncation: float = 0.0  # estimate of the largest error of a position, m
+    force_truncation: float = 0.0  # the same of a contact force, N
 
 
 Quantity: TypeAlias = Literal[
@@ -64,34 +49,21 @@ Quantity: TypeAlias = Literal[
 
 @dataclass(frozen=True, kw_only=True)
 class ValueEstimate(ThreadEstimate):
-    """Single values, real or complex.
-
-    Attributes:
-        quantity: which.
-        label: symbol or words for the quantity, with its unit.
-        values: values in the unit of the label, shape (values,).
-        truncation: estimates of their absolute errors in that unit, shape (values,).
-        analysis: number of the analysis of modes or of stability that it is an estimate of, from 0.
-    """
+    """Single values, real or complex."""
 
     quantity: Quantity
-    label: str
-    values: NDArray[Any]
-    truncation: FloatArray
-    analysis: int = 0
+    label: str  # symbol or words for the quantity, with its unit
+    values: NDArray[Any]  # values in the unit of the label, shape (values,)
+    truncation: FloatArray  # estimates of their absolute errors in that unit, shape (values,)
+    analysis: int = 0  # number of the analysis of modes or of stability that it is an estimate of, from 0
 
 
 @dataclass(frozen=True)
 class Inapplicable:
-    """A theory that does not apply to the thread.
+    """A theory that does not apply to the thread."""
 
-    Attributes:
-        name: of the theory.
-        reason: why not.
-    """
-
-    name: str
-    reason: str
+    name: str  # of the theory
+    reason: str  # why not
 
 
 Found: TypeAlias = ShapeEstimate | ValueEstimate | Inapplicable
@@ -120,7 +92,6 @@ def require_bare_thread(thread: Thread, *, stretch: bool) -> None:
     """Refuse threads that no theory of the shape covers: with bending, bodies, or the reaction of a liquid.
 
     Args:
-        thread: the thread.
         stretch: whether the thread may stretch.
     """
     require(thread.flexural_rigidity == 0.0, "the thread resists bending")

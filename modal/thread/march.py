@@ -35,15 +35,11 @@ _DIFFERENCE = 1e-5
 
 @dataclass(frozen=True)
 class MarchedThread(ThreadShape):
-    """A thread at the steps of the integration, and between them.
+    """A thread at the steps of the integration, and between them."""
 
-    Attributes:
-        pieces: (r, N) of s between point forces, of shape (6, n), from end A.
-        ends: where the pieces begin and end, m, increasing.
-    """
-
+    # (r, N) of s between point forces, of shape (6, n), from end A
     pieces: tuple[Callable[[FloatArray], FloatArray], ...]
-    ends: FloatArray
+    ends: FloatArray  # where the pieces begin and end, m, increasing
 
     def at(self, s: ArrayLike) -> ThreadShape:
         """Return the thread at places s from 0 to L, m, shape (n,); at a point force, just beyond it."""

@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
 from hydroelastic.modal.thread.estimate import (
     Found,
@@ -26,6 +25,7 @@ from hydroelastic.modal.thread.modes import (
     sagging_cable_frequencies,
     tensioned_beam_frequencies,
 )
+from hydroelastic.modal.thread.shape import NoAsymptoticError
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread
@@ -182,21 +182,13 @@ def _cable(thread: Thread, count: int, analysis: int, out_of_plane: bool) -> Val
 
 @dataclass(frozen=True)
 class _Along:
-    """A straight thread in a uniform stream along it.
+    """A straight thread in a uniform stream along it."""
 
-    Attributes:
-        thread: in space, SI units.
-        tension: T, N.
-        stretch: |r_s| − 1, which the theory takes as small.
-        ends: how they are held.
-        speed: U, m/s.
-    """
-
-    thread: Thread
-    tension: float
-    stretch: float
-    ends: Ends
-    speed: float
+    thread: Thread  # in space, SI units
+    tension: float  # T, N
+    stretch: float  # |r_s| − 1, which the theory takes as small
+    ends: Ends  # how they are held
+    speed: float  # U, m/s
 
     @property
     def order(self) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 from scipy.special import j0, j1, y0, y1
 
 from hydroelastic.modal.bessel_zeros import bessel_zeros
@@ -95,28 +94,6 @@ def chain_frequencies(
     lowest = 0.1 * math.sqrt(tip_weight / ((tip_mass + mass * length) * length))
     knots = np.concatenate([[min(lowest, 0.5 * knots[0])], knots])
     return sign_change_roots(determinant, knots, determinant(knots))[:count]
-
-
-def damped_exponents(frequencies: ArrayLike, damping: float, mass: float) -> NDArray[np.complex128]:
-    """Return λ = −c/(2m) ± √((c/2m)² − ω_n²) of modes under a uniform damping c per length.
-
-    Args:
-        frequencies: ω_n without damping, 1/s, shape (n,).
-        damping: c, N s/m².
-        mass: m, with the added mass, kg/m.
-
-    Returns:
-        λ, 1/s, shape (n, 2): of an oscillation with positive imaginary part first, else the slower one.
-    """
-    _positive(mass=mass)
-    if not (math.isfinite(damping) and damping >= 0):
-        raise ValueError(f"damping is {damping}: it must be finite and not negative")
-    omega, half = np.asarray(frequencies, dtype=float), 0.5 * damping / mass
-    root = np.sqrt((half - omega) * (half + omega) + 0j)
-    fast = -half - root
-    # The slow one from the product ω² of the two: their sum would cancel.
-    slow = np.where(root.real > 0, omega**2 / np.where(fast == 0, 1, fast), -half + root)
-    return np.stack([slow, fast], axis=1)
 
 
 def irvine_parameter(span: float, weight: float, level_tension: float, axial_rigidity: float) -> float:

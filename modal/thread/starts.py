@@ -36,15 +36,10 @@ class _ShapeAt(Protocol):
 
 @dataclass(frozen=True)
 class ThreadStart:
-    """A shape of a thread to start from.
+    """A shape of a thread to start from."""
 
-    Attributes:
-        name: of the method that found it.
-        shape: positions and forces at arc lengths from end A, m.
-    """
-
-    name: str
-    shape: _ShapeAt
+    name: str  # of the method that found it
+    shape: _ShapeAt  # positions and forces at arc lengths from end A, m
 
     def position(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return positions at s, m, shape (n, 3)."""

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import ArrayLike
 
-from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
-from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.shape import AsymptoticThread, NoAsymptoticError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread_load import ThreadLoad
 
 # Small parameter above which no order is more accurate than the one before.
 _LARGEST = 0.5
 _PANELS = 16
+
+_NODES = 10
 
 
 def tension_dominated(
@@ -112,22 +113,33 @@ def _left_out(terms: list[FloatArray], order: int, small: float) -> float:
     return float(np.linalg.norm(following, axis=1).max())
 
 
-def pulled_up_in_uniform_stream(
-    weight: float, normal_load: float, length: float, pull: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the place of B, and N at A, of a thread that is pulled straight up by a large force in a uniform stream.
+class PanelQuadrature:
+    """Gauss's nodes between knots, and integrals from the first knot to all of them, exact for degree 9."""
 
-    x_B = Rₙ L²/(2B) + w Rₙ L³/(3B²) + O(B⁻³), z_B = L − Rₙ² L³/(6B²) + O(B⁻³),
-    N_A = (Rₙ L, B − wL − Rₙ² L²/(2B)) + O(B⁻²), without tangential drag.
+    def __init__(self, knots: ArrayLike) -> None:
+        """Take the ends of the panels.
 
-    Args:
-        weight: w, N/m.
-        normal_load: Rₙ = kₙ U|U|, N/m, along x.
-        length: L, m.
-        pull: B, N.
-    """
-    if not math.hypot(weight, normal_load) * length < _LARGEST * pull:
-        raise NoAsymptoticError(f"the load on the length is not below {_LARGEST} of the pull, {pull} N")
-    first, second = normal_load * length / pull, weight * length / pull
-    place = length * np.array([first / 2 + second * first / 3, 0.0, 1 - first**2 / 6])
-    return place, pull * np.array([first, 0.0, 1 - second - first**2 / 2])
+        Args:
+            knots: increasing, shape (panels + 1,); what is integrated is smooth between them.
+        """
+        self.knots = np.asarray(knots, dtype=float)
+        nodes, weights = legendre.leggauss(_NODES)
+        widths = np.diff(self.knots)
+        self.nodes = (self.knots[:-1, None] + 0.5 * widths[:, None] * (1 + nodes)).ravel()
+        self._half_widths, self._weights = 0.5 * widths, weights
+        # Interpolate by Legendre polynomials, exactly at the nodes, and integrate each from −1.
+        coefficients = np.linalg.inv(legendre.legvander(nodes, _NODES - 1))
+        primitives = np.stack([legendre.legint(row, lbnd=-1) for row in np.eye(_NODES)], axis=1)
+        self._partial = legendre.legvander(nodes, _NODES) @ primitives @ coefficients
+
+    def running(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the integral from the first knot to the nodes, and to the knots.
+
+        Args:
+            values: the integrand at ``nodes``, shape (nodes, components).
+        """
+        panels = values.reshape(len(self.knots) - 1, _NODES, -1) * self._half_widths[:, None, None]
+        sums = np.einsum("j,ijk->ik", self._weights, panels)
+        at_knots = np.concatenate([np.zeros((1, sums.shape[1])), np.cumsum(sums, axis=0)])
+        inside = at_knots[:-1, None, :] + np.einsum("lj,ijk->ilk", self._partial, panels)
+        return inside.reshape(values.shape), at_knots

@@ -16,9 +16,9 @@ from hydroelastic.output.plots import (
     Sheets,
     mode_colours,
     new_page,
+    page_box,
     page_style,
     pixels,
-    place,
     plotter,
     show_image,
     write_caption,
@@ -114,7 +114,7 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     from matplotlib.tri import Triangulation
 
     bottom = _BELOW + 0.5 * (_HEIGHT - _SIDE)
-    axes = figure.add_axes(place(figure, _VIEW + 0.6, bottom, _SIDE, _SIDE))
+    axes = figure.add_axes(page_box(figure, _VIEW + 0.6, bottom, _SIDE, _SIDE))
     levels = np.linspace(-1.0, 1.0, 21)
     for number in np.unique(sample.plate_of_triangles):
         triangulation = Triangulation(
@@ -131,7 +131,7 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     axes.spines[:].set_visible(True)
     axes.set_xlabel("x, m", size=13.0)
     axes.set_ylabel("y, m", size=13.0)
-    bar = figure.colorbar(filled, cax=figure.add_axes(place(figure, 14.9, bottom, 0.24, _SIDE)))
+    bar = figure.colorbar(filled, cax=figure.add_axes(page_box(figure, 14.9, bottom, 0.24, _SIDE)))
     bar.set_ticks([-1.0, 0.0, 1.0])
     for scales in (axes, bar.ax):
         scales.tick_params(labelsize=12.0)

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.output.quantities import Quantity, array
 from hydroelastic.output.variables import Variable, attributes_of
-from hydroelastic.physics.dofs import body_name, dof_names
-from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.physics.dofs import MOTIONS, body_name, dof_names
 
 if TYPE_CHECKING:
     from hydroelastic.fem.tank.mode_shapes import ModeShapes

@@ -1,4 +1,4 @@
-"""Quantities of the comparison of a thread with estimates, which `scenes.thread.differences` computes."""
+"""Quantities of the comparison of a thread with estimates, which `scenes.thread.compare` computes."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
-from hydroelastic.physics.motions import Level, SectionMotion
+from hydroelastic.physics.dofs import Level, SectionMotion
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, Place, PositiveNumber, SceneModel
 

@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.contours import Contour
+from hydroelastic.physics.point_contours import self_crossing, shortest_side
 from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
 from hydroelastic.scenes.models.body_kinds import AnyFloat
+from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 from hydroelastic.scenes.models.limits import is_at_least, is_at_most, is_within, shown_least, shown_most, shown_range
 from hydroelastic.scenes.models.open_checks import depths_can_be_meshed, length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
 # Contours need NumPy and SciPy, whose import is slow: they are imported by the functions that are called for floats.
 if TYPE_CHECKING:
-    from hydroelastic.physics.contours import Contour
     from hydroelastic.physics.floats import RigidFloat
     from hydroelastic.physics.revolution import SolidOfRevolution
     from hydroelastic.scenes.models.tank_parts import TankParts
@@ -53,9 +55,6 @@ def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
-    from hydroelastic.physics.contours import Contour
-    from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
-
     if body.vertices is not None:
         yield from sides_are_long(("body", index, body.shape_key), body.vertices)
     shape = ("body", index, body.shape_key)
@@ -110,8 +109,6 @@ def sides_are_long(
     location: tuple[str | int, ...], vertices: tuple[tuple[float, float], ...]
 ) -> Iterator[InitErrorDetails]:
     """Yield a side of a polygon that is too short to be resolved, or of no length."""
-    from hydroelastic.physics.point_contours import shortest_side
-
     length, size, number = shortest_side(vertices)
     if length == 0.0 or not is_at_least(length, SHORTEST_SIDE * size):
         yield problem_at(
@@ -124,8 +121,6 @@ def sides_are_long(
 
 def contour_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
     """Yield a place where a contour meets itself."""
-    from hydroelastic.physics.point_contours import self_crossing
-
     crossing = self_crossing(contour)
     if crossing is not None:
         x, y = crossing

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.motions import PLACES
+from hydroelastic.physics.dofs import PLACES
+from hydroelastic.physics.point_contours import closed_polyline, gap_between
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat
 from hydroelastic.scenes.models.float_checks import SMALLEST_GAP, Box, extents
+from hydroelastic.scenes.models.floats import held_float, placed_float
 from hydroelastic.scenes.models.limits import is_at_least, shown_least, shown_most
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -62,23 +65,16 @@ def _box(scene: TankParts, index: int, body: AnyBody) -> Box:
     if not isinstance(body, AnyFloat):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height
-    from hydroelastic.scenes.models.floats import placed_float
 
     return placed_float(scene, index).hull.bounds
 
 
 def _gap(scene: TankParts, first: int, second: int) -> float:
     """Least distance of two bodies: one may reach below the other, as a heave plate does."""
-    from hydroelastic.physics.point_contours import gap_between
-
     return gap_between(_polyline(scene, first), _polyline(scene, second))
 
 
 def _polyline(scene: TankParts, index: int) -> Array:
-    import numpy as np
-
-    from hydroelastic.physics.point_contours import closed_polyline
-    from hydroelastic.scenes.models.floats import placed_float
 
     if _is_float(scene, index):
         return closed_polyline(placed_float(scene, index).hull.contour)
@@ -96,8 +92,6 @@ def _nearer_than(gap: float, one: Box, other: Box) -> bool:
 
 def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, body in scene.floats:
-        from hydroelastic.scenes.models.floats import placed_float
-
         placed = placed_float(scene, index)
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
         found = {"roll", "pitch"} & {*body.motions}
@@ -122,8 +116,6 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
 def _springs_let_floats_rest(scene: TankParts) -> Iterator[InitErrorDetails]:
     """A negative stiffness, as of a mechanism, must be less than that of gravity and of the other springs."""
     for index, body in scene.floats:
-        from hydroelastic.scenes.models.floats import held_float, placed_float
-
         held = held_float(scene, index, placed_float(scene, index))
         if held.springs and body.unstable != "solve":
             for motion in body.motions:
@@ -145,7 +137,6 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
         if section.boundary == "thin" or not thin:
             continue
         # The import of SciPy is slow, and most scenes have no float.
-        from hydroelastic.scenes.models.floats import placed_float
 
         left, right = placed_float(scene, other).hull.bounds[:2]
         for index, position in thin:

@@ -8,13 +8,14 @@ from math import sqrt
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.contours import Contour
+from hydroelastic.physics.dofs import PLACES, Level
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics, still_level
-from hydroelastic.physics.motions import PLACES, Level
 from hydroelastic.physics.point_contours import outline_contour, polygon_contour
 from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, float_profile, profile_contour
 from hydroelastic.physics.revolution import SolidOfRevolution
@@ -22,12 +23,15 @@ from hydroelastic.physics.solids import solid_of_revolution
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import AnyFloat
-from hydroelastic.scenes.models.outline_files import read_outline
+from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEFAULT_CORNER_ANGLE = 30.0
 """Degrees by which an outline turns in a corner, unless the scene says it."""
+
+POINTS = (3, 1000)
+"""How many points an outline may have: with more, the elements of the mesh would follow noise."""
 
 
 def float_section(body: AnyFloat) -> Profile | None:
@@ -46,7 +50,6 @@ def float_contour(body: AnyFloat, folder: Path) -> Contour | SolidOfRevolution:
     In it x = 0 at its position and y = 0 at its reference level.
 
     Args:
-        body: the float.
         folder: to which the path of an outline's file is relative.
 
     Raises:
@@ -75,7 +78,6 @@ def level_at_rest(
     """Return the ordinate of the still level in a float's frame, m: by its mass, or by its draught without one.
 
     Args:
-        body: the float.
         contour: in the float's frame, m.
         densities: below and above the level, kg/m³.
         gravity: m/s².
@@ -93,7 +95,6 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
     """Return a float of a scene at rest, in the frame of the tank, m.
 
     Args:
-        scene: the scene.
         index: of the float among the bodies.
 
     Raises:
@@ -119,7 +120,6 @@ def held_float(scene: TankParts, index: int, placed: RigidFloat) -> RigidFloat:
     """Return a float that is placed, with its springs to the ground.
 
     Args:
-        scene: the scene.
         index: of the float among the bodies.
         placed: see `placed_float`.
     """
@@ -183,3 +183,19 @@ def _placed(
         level=level,
         motions=tuple(sorted(body.motions, key=PLACES.__getitem__)),
     )
+
+
+def read_outline(file: Path) -> NDArray[np.float64]:
+    """Return the points of an outline, m, shape (n, 2): without repeated ones, and not closed by its first point.
+
+    Raises:
+        ValueError: with the error in the file and its line.
+    """
+    rows = read_columns(file, 2)
+    points = [row for place, row in enumerate(rows) if place == 0 or row != rows[place - 1]]
+    if len(points) > 1 and points[-1] == points[0]:
+        points.pop()
+    least, most = POINTS
+    if not least <= len(points) <= most:
+        raise ValueError(f"it holds {len(points) or 'no'} points; {least} to {most} make an outline")
+    return np.array(points)

@@ -13,6 +13,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan, middle_of
 from hydroelastic.physics.plate import Bounds, Disc, Polygon, bounds_of
+from hydroelastic.physics.point_contours import polygon_contour
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.float_checks import contour_is_simple, sides_are_long
 from hydroelastic.scenes.models.level_tank_parts import SOLID_FORMATS, LevelTankParts
@@ -136,7 +137,6 @@ def _polygons_are_simple(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     for location, points in ((("tank", "plan"), scene.tank.plan), *given):
         if points is not None:
             # It takes SciPy, whose import is slow.
-            from hydroelastic.physics.point_contours import polygon_contour
 
             short = list(sides_are_long(location, points))
             yield from short or contour_is_simple(location, polygon_contour(points))

@@ -26,7 +26,7 @@ from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import AnyNumber, Place, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.thin_plates import ThinPlate, one_mass, one_rigidity, ring_has_a_hole
-from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.values import Title
 from hydroelastic.scenes.models.volume_floats import VolumeFloat
 
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]

@@ -9,6 +9,7 @@ from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank, 
 from hydroelastic.physics.plate import Disc, Outline, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.volume_tank import Bed, LowerLiquid, SlopingBed, SurveyedBed, VolumeTank
 from hydroelastic.scenes.models import level_tank_parts as parts
+from hydroelastic.scenes.models.number_files import read_columns
 
 
 def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
@@ -80,7 +81,6 @@ def bed_points(scene: parts.LevelTankParts) -> tuple[tuple[float, float, float],
     if bed.points is not None:
         return bed.points
     assert bed.file is not None
-    from hydroelastic.scenes.models.number_files import read_columns
 
     return tuple((x, y, z) for x, y, z in read_columns(scene.folder / bed.file, 3))
 

@@ -16,7 +16,6 @@ def is_at_least(value: float, least: float, *, beside: float = 0.0) -> bool:
 
     Args:
         value: what is compared.
-        least: the limit.
         beside: the largest of the numbers of which the value is a difference.
     """
     return value >= least - max(ROUND_OFF * abs(least), _DIFFERENCE * abs(beside))

@@ -24,10 +24,6 @@ def read_columns(file: Path, columns: int) -> list[tuple[float, ...]]:
     Columns are separated by commas, semicolons or blanks. Empty lines, text after a ``#``, and one line of headings
     before the numbers are ignored. A file with too many rows is not read to its end.
 
-    Args:
-        file: the file.
-        columns: how many.
-
     Raises:
         ValueError: with the error in the file and its line.
     """

@@ -19,7 +19,6 @@ from hydroelastic.fem.open_water.requests import (
     ResonanceRequest,
     ResponseRequest,
 )
-from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.scene_model import PositiveNumber, SceneModel
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.time_analyses import Displacement, ImpulseResponse, Motion
@@ -29,6 +28,7 @@ from hydroelastic.scenes.models.values import (
     OR_SWEEP,
     ElasticModes,
     NumberFromZero,
+    ZeroOrMoreOrInfinite,
     kind_of,
 )
 

@@ -8,9 +8,12 @@ from math import ceil, inf, isclose, isinf, sqrt
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
 from hydroelastic.scenes.models.limits import is_at_most, is_within, shown_most, shown_range
 from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
 from hydroelastic.scenes.models.round_plates import SeaPlate
@@ -118,11 +121,6 @@ def azimuthal_orders_can_be_solved(scene: TankParts) -> Iterator[InitErrorDetail
     scattered = [(index, one) for index, one in enumerate(scene.analysis) if isinstance(one, Response | Spectrum)]
     if not scene.is_revolved or not scattered:
         return
-    # These need SciPy, which is slow to import.
-    from hydroelastic.modal.liquid.travelling_waves import travelling_waves
-    from hydroelastic.modal.tank_estimates import two_layers
-    from hydroelastic.scenes.models.physical import physical_tank
-
     water = physical_tank(scene)
     layers, radius = two_layers(water), max(right for _, right in (body.waterplane for body in water.bodies))
 

@@ -12,6 +12,7 @@ from hydroelastic.physics.round_plates import RoundPlate
 from hydroelastic.physics.tank import Tank, tank
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.body_kinds import AnyFloat
+from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 if TYPE_CHECKING:
@@ -52,8 +53,6 @@ def _physical_tank(scene: TankParts, _states_of_files: tuple[object, ...]) -> Ta
 def _attachment(scene: TankParts, one: Attachment) -> physics.Attachment:
     point = one.at
     if point is None:
-        from hydroelastic.scenes.models.floats import placed_float
-
         # Without a point it holds a float, at its centre of mass.
         point = placed_float(scene, one.body - 1).hydrostatics.centre_of_mass
     return physics.Attachment(
@@ -70,7 +69,6 @@ def _body(scene: TankParts, index: int) -> Beam | RigidFloat | RoundPlate:
     body = scene.body[index]
     if isinstance(body, AnyFloat):
         # Contours need SciPy's root finders, whose import is slow.
-        from hydroelastic.scenes.models.floats import placed_float
 
         return placed_float(scene, index)
     return body.physical(scene.level_of(body))

@@ -31,7 +31,6 @@ def require_fit(model: BaseModel, stages: Iterable[Iterable[Check]]) -> None:
 
     Args:
         model: the model to check.
-        stages: the checks.
 
     Raises:
         ValidationError: with all problems of the first stage that finds any.

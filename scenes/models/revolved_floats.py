@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal, get_args
 from pydantic import Field, SerializerFunctionWrapHandler, ValidationError, model_serializer, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.motions import Level, SolidMotion
+from hydroelastic.physics.dofs import Level, SolidMotion
 from hydroelastic.physics.solids import SolidShape
 from hydroelastic.scenes.models.bodies import LEFT_OUT, MOST_VERTICES, motions_differ
 from hydroelastic.scenes.models.problems import problem_at

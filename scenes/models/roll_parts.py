@@ -12,8 +12,7 @@ from pydantic import Field, Strict
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
-from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, Title, ascending_values
 
 MOST_TIMES = 1_000_000
 DEFAULT_TIMES_PER_PERIOD = 60

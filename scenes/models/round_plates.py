@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field, ValidationError, model_validator
 
 from hydroelastic.physics import round_plates as physics
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Level
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import PositiveNumber
 from hydroelastic.scenes.models.thin_plates import ThinPlate, one_mass, one_rigidity, ring_has_a_hole

@@ -10,16 +10,18 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import MOST_BODIES
+from hydroelastic.physics.geometry import Geometry
+from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_VERTICES, Float
 from hydroelastic.scenes.models.body_kinds import kind_of_body
 from hydroelastic.scenes.models.limits import is_at_most, shown_most
 from hydroelastic.scenes.models.problems import problem_at, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plate_checks import round_plates_are_in_range, round_plates_keep_apart
 from hydroelastic.scenes.models.round_plates import SeaPlate
+from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, TankParts
-from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.values import Title
 
 
 class OrderedTankScene(TankParts):
@@ -123,3 +125,44 @@ def _bed_fits(scene: OrderedTankScene) -> Iterator[InitErrorDetails]:
             f"its lowest corner does not lie {depth:.12g} m under the surface, the liquid's depth, or one above it",
             allowed=f"corners with {'z' if scene.is_revolved else 'y'} from {-depth:.12g} m, once at least, to 0",
         )
+
+
+class CanalTank(SceneModel):
+    """A tank between two walls across its section, with y = 0 at the still surface and x from the left end."""
+
+    length: PositiveNumber = Field(description="length of the section at the still surface, m")
+    width: PositiveNumber = Field(description="distance of the two walls across the section, m")
+    gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
+    top: Literal["free", "rigid", "pressure_release"] = Field(
+        default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
+    )
+    outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=MOST_VERTICES,
+        description=f"2 to {MOST_VERTICES} corners [x, y] of the bed from the left to the right end, m; by default it "
+        "is level",
+    )
+
+    @property
+    def ends(self) -> Literal["walls", "open"]:
+        """Its section has walls at both ends."""
+        return "walls"
+
+
+class CanalScene(OrderedTankScene):
+    """A tank of one section over a finite width, with floats over the whole width or none.
+
+    Raises:
+        SceneError: if a value is not allowed or the parts do not fit together.
+    """
+
+    tank: CanalTank = Field(description="the tank")
+    body: tuple[Float, ...] = Field(
+        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats over the whole width, in any order"
+    )
+
+    @property
+    def geometry(self) -> Geometry:
+        """See `TankParts.geometry`."""
+        return Geometry(kind="extruded", width=self.tank.width)

@@ -16,7 +16,6 @@ from pydantic import (
 from pydantic._internal._model_construction import ModelMetaclass
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.validation_errors import scene_error
 
 SMALLEST, LARGEST = 1e-30, 1e30
@@ -75,3 +74,12 @@ class SparseModel(SceneModel):
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         return {key: value for key, value in write(self).items() if value not in (None, (), [])}
+
+
+def plain(value: Any) -> Any:
+    """Return a value with the arrays and numbers of NumPy in it as lists and numbers of Python."""
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    return value.tolist() if hasattr(value, "tolist") else value

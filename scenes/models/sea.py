@@ -12,20 +12,18 @@ from hydroelastic.scenes.models.bodies import MOST_BODIES, Beam, Float, Shape
 from hydroelastic.scenes.models.body_kinds import AnyBody, AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
+from hydroelastic.scenes.models.floats import float_contour
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import azimuthal_orders_can_be_solved, drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
-from hydroelastic.scenes.models.round_plate_checks import (
-    round_plates_are_in_range,
-    round_plates_keep_apart,
-)
+from hydroelastic.scenes.models.round_plate_checks import round_plates_are_in_range, round_plates_keep_apart
 from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts
-from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.values import Title
 from hydroelastic.scenes.models.varying_beam import VaryingBeam
 
 # Width of what is drawn to each side of the bodies, in lengths that these take up.
@@ -155,7 +153,6 @@ def _span(body: AnyBody, scene: SeaScene) -> tuple[float, float]:
     if not isinstance(body, AnyFloat):
         return body.start, body.end
     # Contours need SciPy, whose import is slow.
-    from hydroelastic.scenes.models.floats import float_contour
 
     try:
         left, right = float_contour(body, scene.folder).bounds[:2]

@@ -13,6 +13,7 @@ from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.body_kinds import AnyFloat, name_of_body
 from hydroelastic.scenes.models.limits import is_within, shown_least, shown_range
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -172,7 +173,6 @@ def air_gaps_are_over_water(scene: TankParts) -> Iterator[InitErrorDetails]:
     if not any(analysis.air_gaps for analysis in scene.analysis if isinstance(analysis, Spectrum)):
         return
     # Floats at rest need SciPy.
-    from hydroelastic.scenes.models.physical import physical_tank
 
     tank = physical_tank(scene)
     level, (low, high) = tank.levels_from_top[0], scene.stretch

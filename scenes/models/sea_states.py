@@ -10,6 +10,7 @@ from pydantic import Field, Strict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.requests import AirGapPoint, SpectrumRequest
+from hydroelastic.physics.wave_spectrum import PeakedSpectrum, TabulatedSpectrum
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import LARGEST, AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.values import MOST_VALUES
@@ -83,9 +84,6 @@ class Spectrum(SparseModel):
     @property
     def spectrum(self) -> WaveSpectrum:
         """The spectrum."""
-        # SciPy's quadrature is slow to import.
-        from hydroelastic.physics.wave_spectrum import PeakedSpectrum, TabulatedSpectrum
-
         if self.waves == "table":
             return TabulatedSpectrum(omega=self.omega, values=self.density)
         assert self.significant_height is not None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BeforeValidator,
@@ -14,14 +14,11 @@ from pydantic import (
     Tag,
 )
 
+from hydroelastic.physics.string import HangingString as PhysicalString
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel
-from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, ascending_values, kind_of
-
-if TYPE_CHECKING:
-    from hydroelastic.physics.string import HangingString as PhysicalString
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, Title, ascending_values, kind_of
 
 MOST_POSITIONS, MOST_TIMES = 100_000, 1_000_000
 DEFAULT_POSITIONS = 101
@@ -73,7 +70,6 @@ class HangingString(SceneModel):
             ValueError: if it is not under tension; the checks of a scene refuse that first.
         """
         # NumPy is not needed to read a scene of another kind.
-        from hydroelastic.physics.string import HangingString as PhysicalString
 
         return PhysicalString(
             length=self.length,

@@ -18,7 +18,7 @@ from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies, close
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_kinds import is_level_tank
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, MeshFile, Tank, TankParts
-from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.values import Title
 
 
 class TankScene(TankParts):

@@ -8,6 +8,7 @@ from typing import TypeAlias, TypeVar
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.rigid_motions import mode_count
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.float_checks import floats_are_in_equilibrium
@@ -25,6 +26,7 @@ from hydroelastic.scenes.models.open_checks import (
     plan_views_are_of_waves_solved_for,
     resonance_regions_are_covered_by_theory,
 )
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.sea_checks import air_gaps_are_over_water, sea_points_lie_on_bodies
@@ -319,9 +321,6 @@ def _guided_beams_cover_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]
 
 
 def _model_has_motions(scene: TankParts) -> Iterator[InitErrorDetails]:
-    from hydroelastic.physics.rigid_motions import mode_count
-    from hydroelastic.scenes.models.physical import physical_tank
-
     if scene.is_open or mode_count(physical_tank(scene)) != 0:
         return
     if not scene.body:

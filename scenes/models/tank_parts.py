@@ -22,12 +22,12 @@ from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_VERTICES, Level
 from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyBody, AnyFloat
 from hydroelastic.scenes.models.export import Export
-from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_plates import SeaPlate
 from hydroelastic.scenes.models.scene_model import LARGEST, SMALLEST, AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.values import PositiveOrInfinite
 
 
 class Tank(SceneModel):

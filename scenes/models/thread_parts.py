@@ -13,8 +13,7 @@ from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.scene_model import SceneModel
 from hydroelastic.scenes.models.thread_analyses import EndMotion, ThreadAnalysis, ThreadMotion
 from hydroelastic.scenes.models.thread_tables import Ends, FlexibleThread, LiquidStream, PointOnThread
-from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, Title, ascending_values
 
 MOST_POSITIONS = 100_000
 DEFAULT_POSITIONS = 101

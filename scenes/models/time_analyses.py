@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer, model_validator
 
 from hydroelastic.fem.open_water.requests import ImpulseResponseRequest, MotionRequest, RegularWave
+from hydroelastic.physics.irregular_waves import wave_components
+from hydroelastic.physics.wave_spectrum import PeakedSpectrum
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.scene_model import AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.values import (
@@ -117,10 +119,6 @@ class RandomWaves(SceneModel):
     @property
     def components(self) -> Iterator[RegularWave]:
         """The regular waves."""
-        # SciPy's quadrature is slow to import.
-        from hydroelastic.physics.wave_components import wave_components
-        from hydroelastic.physics.wave_spectrum import PeakedSpectrum
-
         enhancement = self.peak_enhancement if self.waves == "jonswap" else 1.0
         spectrum = PeakedSpectrum(height=self.significant_height, period=self.peak_period, enhancement=enhancement)
         for omega, amplitude, phase in zip(*wave_components(spectrum, self.number, self.seed), strict=True):

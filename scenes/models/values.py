@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
@@ -12,6 +13,7 @@ from pydantic import (
     BeforeValidator,
     Field,
     GetJsonSchemaHandler,
+    PlainSerializer,
     Strict,
     ValidationError,
     model_validator,
@@ -32,15 +34,43 @@ MOST_SWEPT = 1_000_000
 ElasticModes: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=200)]
 
 
+def _on_one_line(title: str) -> str:
+    if not title.isprintable():
+        raise problem("it holds a line break or another character that cannot be shown", allowed="one line")
+    return title
+
+
+Title: TypeAlias = Annotated[str, Strict(), AfterValidator(_on_one_line)]
+
+
+def _from_text(value: Any) -> Any:
+    return inf if value == "inf" else value
+
+
+def _finite_or_inf(value: float) -> float:
+    if LARGEST < value < inf:
+        raise problem("it is too large", allowed=f"up to {LARGEST:g}, or inf")
+    return value
+
+
+def _written(value: float) -> float | str:
+    return "inf" if value == inf else value
+
+
+_INFINITY = (BeforeValidator(_from_text), AfterValidator(_finite_or_inf), PlainSerializer(_written, when_used="json"))
+
+
+PositiveOrInfinite: TypeAlias = Annotated[float, Strict(), Field(ge=SMALLEST, le=inf, allow_inf_nan=True), *_INFINITY]
+
+
+ZeroOrMoreOrInfinite: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=inf, allow_inf_nan=True), *_INFINITY]
+
+
 @dataclass(frozen=True)
 class OrElse:
-    """Another form of a value, for the JSON schema of scenes.
+    """Another form of a value, for the JSON schema of scenes."""
 
-    Attributes:
-        form: its schema, or the model of a table.
-    """
-
-    form: dict[str, Any] | type[BaseModel]
+    form: dict[str, Any] | type[BaseModel]  # its schema, or the model of a table
 
     def __get_pydantic_json_schema__(self, own: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         other = self.form if isinstance(self.form, dict) else handler(self.form.__pydantic_core_schema__)

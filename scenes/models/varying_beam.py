@@ -13,7 +13,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import varying_beam
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Level
 from hydroelastic.scenes.models.bodies import MOST_SECTIONS, BeamJoint, BeamSection, physical_joints, physical_sections
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.scene_model import Place, PositiveNumber, SparseModel

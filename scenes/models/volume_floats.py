@@ -132,7 +132,6 @@ class VolumeFloat(SparseModel):
         Args:
             middle: of the tank, m.
             density: of the liquid in which it floats, kg/m³.
-            folder: of the scene.
 
         Raises:
             UnfloatableError: if mass and draught do not fit together, or the file of a hull cannot be used.

@@ -29,7 +29,7 @@ from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.models.time_analyses import Release
-from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
+from hydroelastic.scenes.open_water.results import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
 
 # Lowest frequency of a search for resonances over the highest, roughly.

@@ -62,7 +62,7 @@ def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     from hydroelastic.output.thread.comparison_tables import comparison_sections
-    from hydroelastic.scenes.thread.differences import thread_differences
+    from hydroelastic.scenes.thread.compare import thread_differences
     from hydroelastic.scenes.thread.estimates import thread_estimates
 
     seconds = outcome.summary[SECONDS.key]

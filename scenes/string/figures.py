@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.output.line_sequence import frame_numbers
 from hydroelastic.output.plots import (
+    BLUE,
     COLOURS,
     DASHES,
+    FRAMES,
     GREY,
+    SECONDS,
     PictureOptions,
     Sheets,
     label_axes,
     part_of_colours,
     sequence_colours,
+    style,
+    write_gif,
 )
-from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
-from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
+from hydroelastic.scenes.models.string_parts import DEFAULT_POSITIONS, DEFAULT_TIMES
 from hydroelastic.scenes.string.results import StringResult
+from hydroelastic.scenes.string.solve import solve_series
+
+if TYPE_CHECKING:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
@@ -38,6 +47,18 @@ _EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
 _FEW_POSITIONS = 20
 # Part of the largest |U| of a shape by which neighbouring positions beside a front differ where the string jumps there.
 _JUMP = 0.1
+
+HEIGHT = "height above the free end, m"
+"""What the axis of all pictures of the string says."""
+
+_MOTION_FRAMES = 60
+_ANIMATION_DPI = 80
+
+# Numbers of times and of positions from which a motion and a shape are drawn smooth.
+_ENOUGH_TIMES = 61
+_ENOUGH_POSITIONS = 61
+# Positions and times at which the fronts of a step are lines and no stairs.
+_OF_FRONTS = (301, 801)
 
 
 def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> None:
@@ -153,3 +174,86 @@ def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
 
 def _drawn(solution: StringSolution) -> dict[str, Any]:
     return {"marker": "o" if len(solution.positions) <= _FEW_POSITIONS else None}
+
+
+def draw_frames(solution: StringSolution, numbers: Sequence[int], folder: Path, options: PictureOptions) -> None:
+    """Draw the string at some of its times, numbered as players of sequences expect."""
+    for place, canvas in enumerate(_frames(solution, numbers, options.scale)):
+        canvas.figure.savefig(folder / f"frame_{place:04d}.png", dpi=options.dpi)
+
+
+def animate_string(solution: StringSolution, path: Path, options: PictureOptions) -> None:
+    """Draw the motion at evenly spread times as a GIF that begins again at its end."""
+    numbers = columns_of(solution, np.linspace(solution.times[0], solution.times[-1], _MOTION_FRAMES))
+    if len(numbers) < 2:
+        return
+    pages = []
+    for canvas in _frames(solution, numbers, options.scale, _ANIMATION_DPI):
+        canvas.draw()
+        pages.append(np.array(canvas.buffer_rgba())[:, :, :3])
+    write_gif(pages, path, seconds=SECONDS / FRAMES * len(pages))
+
+
+def _frames(
+    solution: StringSolution, numbers: Sequence[int], scale: float, dpi: float = 100.0
+) -> Iterator[FigureCanvasAgg]:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    with style():
+        figure = Figure(figsize=(5.0 * scale, 6.0 * scale), dpi=dpi, layout="constrained")
+        canvas = FigureCanvasAgg(figure)
+        axes = figure.subplots()
+        reach = 1.05 * max(solution.largest, 1e-300)
+        axes.set_xlim(-reach, reach)
+        axes.set_ylim(0.0, 1.02 * solution.string.length)
+        (line,) = axes.plot([], [], color=BLUE, linewidth=2.0)
+        (end,) = axes.plot([], [], "s", color="black", markersize=6)
+        label_axes(axes, "displacement U, m", HEIGHT, legend="")
+        title = axes.set_title(" ")
+        # The layout is the same on all frames, and takes most of the time of one.
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        for column in numbers:
+            line.set_data(solution.displacement[:, column], solution.positions)
+            end.set_data([solution.displacement[-1, column]], [solution.positions[-1]])
+            title.set_text(f"t = {solution.times[column]:.4g} s")
+            yield canvas
+
+
+def drawn_solution(result: StringResult) -> StringSolution:
+    """Return the same motion at more positions and times, including the requested ones.
+
+    A series is summed again. A field solution is drawn as it is, since computing it again is expensive.
+    """
+    scene, solution = result.scene, result.solution
+    few_positions = len(solution.positions) < _ENOUGH_POSITIONS
+    few_times = len(solution.times) < _ENOUGH_TIMES
+    jumps = scene.motion.kind == "step" and solution.times[-1] > 0.0
+    if scene.method != "series" or not (few_positions or few_times or jumps):
+        return solution
+    positions, times = solution.positions, solution.times
+    heights, instants = _OF_FRONTS if jumps else (DEFAULT_POSITIONS, DEFAULT_TIMES)
+    if few_positions or jumps:
+        positions = np.union1d(positions, scene.string.length * np.linspace(0.0, 1.0, heights) ** 2)
+    if few_times or jumps:
+        times = np.union1d(times, np.linspace(0.0, times[-1], instants))
+    return solve_series(scene, positions, times)
+
+
+def columns_of(solution: StringSolution, times: Floats) -> list[int]:
+    """Return the columns of a solution that are nearest to times, each once and in their order."""
+    return sorted({int(np.argmin(np.abs(solution.times - time))) for time in times})
+
+
+def animation_notes(result: StringResult) -> tuple[str, ...]:
+    """Return why there is no animation, or only a coarse one, and the key to set."""
+    solution = result.solution
+    if solution.times[-1] == 0.0:
+        return ('the string is not animated: give [output] key "times" times after 0',)
+    if result.scene.method != "series" and len(solution.times) < _ENOUGH_TIMES:
+        return (
+            f"the animation has {len(solution.times)} pages only, one for each time of the field solution: give "
+            f'[output] key "times" {_ENOUGH_TIMES} or more',
+        )
+    return ()

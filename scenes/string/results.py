@@ -13,15 +13,10 @@ from hydroelastic.scenes.string.physics import end_motion
 
 @dataclass(frozen=True, kw_only=True)
 class StringResult:
-    """A solved scene.
-
-    Attributes:
-        scene: the scene.
-        solution: displacements and free motions.
-    """
+    """A solved scene."""
 
     scene: StringScene
-    solution: StringSolution
+    solution: StringSolution  # displacements and free motions
 
     @property
     def method(self) -> str:

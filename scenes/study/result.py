@@ -14,7 +14,7 @@ from mpi4py import MPI
 from hydroelastic.fem.progress import Report
 from hydroelastic.output.plots import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.models.plain import plain
+from hydroelastic.scenes.models.scene_model import plain
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene, closed_tank, read_scene, title_of_scene
 from hydroelastic.scenes.study.plan import Family, StudyPlan

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.models.plain import plain
+from hydroelastic.scenes.models.scene_model import plain
 from hydroelastic.scenes.overrides import parsed_toml
 
 MOST_POINTS = 100_000

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Level
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.symbols import Group
 

@@ -60,7 +60,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquid
     of_floats = None
     if scene.floats:
         # Floats need more of SciPy, which takes a while to import.
-        from hydroelastic.modal.floats.tank_estimates import float_estimates
+        from hydroelastic.modal.floats.estimates import float_estimates
 
         of_floats = float_estimates(physical)
     solved = solve_tank_alone(scene, comm, report, liquids)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
-from hydroelastic.physics.motions import Level
+from hydroelastic.physics.dofs import Level
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 Group = tuple[str, float, str]

@@ -8,9 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydroelastic.fem.cost import cost
-from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.fixed_end_estimates import catenary_of
-from hydroelastic.modal.thread.shape import NoTensionError
+from hydroelastic.modal.thread.shape import NoAsymptoticError, NoTensionError
 from hydroelastic.output.digits import number
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.thread import ThreadScene

@@ -21,11 +21,7 @@ _TENSION_KNOWN = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadSolutionOfScene(ThreadAnalyses):
-    """Results of all analyses of a scene.
-
-    Attributes:
-        scene: the scene.
-    """
+    """Results of all analyses of a scene."""
 
     scene: ThreadScene
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from hydroelastic.physics.ship import Ship
@@ -50,3 +51,26 @@ def exponential_motion(
             state = expm((end - start) * matrix) @ state
             state[2:] = 0.0, 1.0
     return result
+
+
+def free_swings(ship: Ship, amplitude: float, count: int) -> np.ndarray:
+    """The first swing |φ| and `count` more, half a cycle each, of φ'' + 2nφ' + d|φ'|φ' + k²φ = 0, in the time kt."""
+    linear = 2 * ship.damping / ship.natural_frequency
+
+    def turn(_: float, state: np.ndarray) -> float:
+        return float(state[1])
+
+    turn.terminal, turn.direction = True, 1.0  # type: ignore[attr-defined]
+    swings = [amplitude]
+    for _ in range(count):
+        result = solve_ivp(
+            lambda _t, y: (y[1], -y[0] - linear * y[1] - ship.quadratic_damping * abs(y[1]) * y[1]),
+            (0, 1e3),
+            (swings[-1], 0.0),
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13 * swings[-1],
+            events=turn,
+        )
+        swings.append(-float(result.y_events[0][0][0]))
+    return np.array(swings)

@@ -1,1 +1,0 @@
-"""Heaving solids of revolution in the open sea, beside Capytaine and OpenFLASH."""

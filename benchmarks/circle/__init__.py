@@ -1,1 +1,0 @@
-"""A circle in open water, beside Capytaine."""

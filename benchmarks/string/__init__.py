@@ -1,1 +1,0 @@
-"""A hanging string, as series and as a field."""

@@ -1,1 +1,0 @@
-"""Flexible threads, beside MoorPy and MoorDyn."""

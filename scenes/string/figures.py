@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,12 +39,6 @@ _SHOWN_MODES = 5
 _QUANTILE = 0.995
 # Times this quantile a value is a peak.
 _PEAK = 1.5
-_EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
-    (False, False): "neither",
-    (True, False): "min",
-    (False, True): "max",
-    (True, True): "both",
-}
 _FEW_POSITIONS = 20
 # Part of the largest |U| of a shape by which neighbouring positions beside a front differ where the string jumps there.
 _JUMP = 0.1
@@ -89,30 +83,20 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
     displacement = _bridged(solution.times, solution.displacement, solution.trusted)
     low, high = _colour_limits(displacement)
     limit = max(-low, high)
-    beyond = (bool(displacement.min() < low), bool(displacement.max() > high))
+    beyond = 2 * int(displacement.max() > high) + int(displacement.min() < low)
     with sheets.sheet("space_time", "displacement over time and height", width=10.0, height=6.0) as figure:
         axes = figure.subplots()
-        picture = NonUniformImage(
-            axes,
-            interpolation="bilinear",
-            cmap=part_of_colours("RdBu_r", 0.5 + 0.5 * low / limit, 0.5 + 0.5 * high / limit),
-            norm=Normalize(low, high),
-            extent=(solution.times[0], solution.times[-1], solution.positions[0], solution.positions[-1]),
-        )
+        colours = part_of_colours("RdBu_r", 0.5 + 0.5 * low / limit, 0.5 + 0.5 * high / limit)
+        sides = (solution.times[0], solution.times[-1]), (solution.positions[0], solution.positions[-1])
+        norm = Normalize(low, high)
+        picture = NonUniformImage(axes, interpolation="bilinear", cmap=colours, norm=norm, extent=sides[0] + sides[1])
         picture.set_data(solution.times, solution.positions, displacement)
         axes.add_image(picture)
-        figure.colorbar(picture, ax=axes, label="displacement U, m", extend=_EXTENDED[beyond])
-        axes.plot(
-            solution.string.arrival_times(solution.positions),
-            solution.positions,
-            "--",
-            color="black",
-            linewidth=1.0,
-            label="first wave front",
-        )
+        figure.colorbar(picture, ax=axes, label="displacement U, m", extend=("neither", "min", "max", "both")[beyond])
+        front = solution.string.arrival_times(solution.positions)
+        axes.plot(front, solution.positions, "--", color="black", linewidth=1.0, label="first wave front")
         axes.grid(visible=False)
-        axes.set_xlim(solution.times[0], solution.times[-1])
-        axes.set_ylim(solution.positions[0], solution.positions[-1])
+        axes.set(xlim=sides[0], ylim=sides[1])
         label_axes(axes, "time t, s", HEIGHT)
 
 

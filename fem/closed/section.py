@@ -262,7 +262,7 @@ class SectionModes:
         extensions = self.section.extensions
         found = {key: part.amplitudes @ extensions[key].T for key, part in self.modes.parts.items()}
         size = sum(body.size for body in self.section.bodies)
-        return self.modes.of_parts(found).reshape(-1, size)
+        return self.modes.of_parts(found).reshape(len(self.modes.origins), size)
 
     @cached_property
     def energies(self) -> Array:

@@ -17,7 +17,7 @@ elements (R. S. Barsoum, Int. J. Numer. Meth. Eng. 10 (1976) 25) for m = 2; blen
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import ceil, inf
@@ -38,8 +38,10 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-# Points of a curve at which sizes and curvatures are taken.
-_SAMPLES = np.linspace(0.0, 1.0, 129)
+# Points of a curve at which sizes are taken, and those for its radius of curvature, of which some are kept.
+_SAMPLES = np.linspace(0.0, 1.0, 65)
+_FINE = np.linspace(0.0, 1.0, 97)
+_KEPT = slice(0, None, 6)
 _EDGES = ((1, 2), (0, 2), (0, 1))
 
 
@@ -60,22 +62,48 @@ class SectionSizes:
     points: Mapping[Point, float] = field(default_factory=dict)
 
 
-def section_mesh(
-    outline: Outline, sizes: SectionSizes, powers: Mapping[Point, int], geometry_degree: int
-) -> NodedMesh:
-    """Mesh an outline; regions on both sides of a cut curve have nodes of their own on it.
+@dataclass(frozen=True, kw_only=True)
+class SectionTriangles:
+    """A triangulated outline.
+
+    Attributes:
+        outline: the domain.
+        corners: shape (corners, 2).
+        cells: numbers of the corners of each, shape (cells, 3).
+        regions: of the outline, of each cell.
+        chains: numbers of the corners along each curve.
+        parameters: of the curve at these.
+    """
+
+    outline: Outline
+    corners: Array
+    cells: Indices
+    regions: Indices
+    chains: list[Indices]
+    parameters: list[Array]
+
+    def noded(self, powers: Mapping[Point, int], degree: int) -> NodedMesh:
+        """The mesh with cells r = sᵐ, of one degree of the geometry, at least the largest m.
+
+        Regions on both sides of a cut curve have nodes of their own on it.
+        """
+        return _noded(self, powers, degree)
+
+
+def section_triangles(outline: Outline, sizes: SectionSizes) -> SectionTriangles:
+    """Triangulate an outline; cells have one of the points with sizes of their own at most.
 
     Args:
         outline: the domain, with the largest size on each curve.
         sizes: all other sizes.
-        powers: m of the cells at singular points.
-        geometry_degree: of the cells' geometry, at least the largest m.
     """
     size = _SizeField(outline, sizes)
-    parameters = [size.division(curve, powers) for curve in outline.curves]
+    parameters = [size.division(curve) for curve in outline.curves]
     corners, cells, regions, chains = _triangles(outline, parameters, size)
-    corners, cells, regions = _bisected(corners, cells, regions, powers, chains)
-    return _noded(outline, powers, geometry_degree, parameters, corners, cells, regions, chains)
+    corners, cells, regions = _bisected(corners, cells, regions, sizes.points, chains)
+    return SectionTriangles(
+        outline=outline, corners=corners, cells=cells, regions=regions, chains=chains, parameters=parameters
+    )
 
 
 class _SizeField:
@@ -91,41 +119,38 @@ class _SizeField:
                 ends += [*chain[1:]]
                 near += [curve.size] * (len(chain) - 1)
             if curve.path is not None:
-                points = curve.at(_SAMPLES)
-                radii = _radii(points)
-                middles = points[1:-1]
-                gap = _gaps(outline, curve, middles)
+                points = curve.at(_FINE)
+                radii = _radii(points)[_KEPT]
+                middles = points[1:-1][_KEPT]
                 starts += [*middles]
                 ends += [*middles]
-                near += [*np.minimum(sizes.turn * radii, np.sqrt(2.0 * radii * gap))]
+                near += [*np.minimum(sizes.turn * radii, np.sqrt(2.0 * radii * _gaps(outline, curve, middles)))]
         for point, own in sizes.points.items():
             starts.append(np.array(point))
             ends.append(np.array(point))
             near.append(own)
         self._starts, self._near = np.array(starts).reshape(-1, 2), np.array(near)
-        self._chords = np.array(ends).reshape(-1, 2) - self._starts
-        squares = (self._chords**2).sum(axis=1)
-        self._inverse = np.where(squares > 0.0, 1.0 / np.where(squares > 0.0, squares, 1.0), 0.0)
+        self._steps = np.array(ends).reshape(-1, 2) - self._starts
+        counts = self._near < sizes.bulk
+        self._starts, self._near, self._steps = self._starts[counts], self._near[counts], self._steps[counts]
 
     def at(self, points: Array) -> Array:
         """Sizes at points, shape (n, 2)."""
-        away = points[:, None] - self._starts
-        along = np.clip((away * self._chords).sum(axis=2) * self._inverse, 0.0, 1.0)
-        distances = np.hypot(*np.moveaxis(away - along[..., None] * self._chords, 2, 0))
-        near = (self._near + self._sizes.growth * distances).min(axis=1, initial=inf)
-        return np.asarray(np.minimum(near, self._sizes.bulk))
+        near = self._near + self._sizes.growth * _distances(points, self._starts, self._steps)
+        return np.asarray(np.minimum(near.min(axis=1, initial=inf), self._sizes.bulk))
 
     def callback(self, x: float, y: float) -> float:
         """The size at one point."""
         return float(self.at(np.array([[x, y]]))[0])
 
-    def division(self, curve: Curve, powers: Mapping[Point, int]) -> Array:
+    def division(self, curve: Curve) -> Array:
         """Parameters of the ends of a curve's edges; never one edge between two singular points."""
         points = curve.at(_SAMPLES)
         lengths = np.hypot(*np.diff(points, axis=0).T)
         density = 1.0 / self.at(points)
         count = np.append(0.0, np.cumsum(0.5 * (density[1:] + density[:-1]) * lengths))
-        least = 2 if curve.start in powers and curve.end in powers else 1
+        single = self._sizes.points
+        least = 2 if curve.start in single and curve.end in single else 1
         edges = max(ceil(count[-1] - 0.2), least)
         found = np.interp(np.linspace(0.0, count[-1], edges + 1), count, _SAMPLES)
         found[[0, -1]] = 0.0, 1.0
@@ -143,15 +168,21 @@ def _radii(points: Array) -> Array:
 def _gaps(outline: Outline, curve: Curve, points: Array) -> Array:
     """Distances of points of a curve from the nearest curve that does not meet it."""
     own = {curve.start, curve.end}
-    gaps = np.full(len(points), inf)
-    for other in outline.curves:
-        if other is not curve and not own & {other.start, other.end}:
-            chain = other.polyline()
-            for start, end in pairwise(chain):
-                chord = end - start
-                along = np.clip((points - start) @ chord / (chord @ chord), 0.0, 1.0)
-                gaps = np.minimum(gaps, np.hypot(*(points - start - along[:, None] * chord).T))
-    return gaps
+    others = [number for number, other in enumerate(outline.curves) if not own & {other.start, other.end}]
+    chords = outline.chords
+    there = np.isin(chords.curves, others)
+    if not there.any():
+        return np.full(len(points), inf)
+    starts, steps = chords.starts[there], chords.ends[there] - chords.starts[there]
+    return _distances(points, starts, steps).min(axis=1)
+
+
+def _distances(points: Array, starts: Array, steps: Array) -> Array:
+    """Distances of points from segments, shape (points, segments)."""
+    away = points[:, None] - starts
+    squares = (steps**2).sum(axis=1)
+    along = np.clip((away * steps).sum(axis=2) / np.where(squares > 0.0, squares, 1.0), 0.0, 1.0)
+    return np.asarray(np.hypot(*np.moveaxis(away - along[..., None] * steps, 2, 0)))
 
 
 def _triangles(
@@ -208,10 +239,10 @@ def _triangles(
 
 
 def _bisected(
-    corners: Array, cells: Indices, regions: Indices, powers: Mapping[Point, int], chains: list[Indices]
+    corners: Array, cells: Indices, regions: Indices, points: Mapping[Point, float], chains: list[Indices]
 ) -> tuple[Array, Indices, Indices]:
-    """Bisect inner edges between two singular points: a cell has one singular corner at most."""
-    singular = np.isin(np.arange(len(corners)), _numbers(corners, powers))
+    """Bisect inner edges between two singular points."""
+    singular = np.isin(np.arange(len(corners)), _numbers(corners, points))
     on_curves = {frozenset(pair) for chain in chains for pair in pairwise(chain.tolist())}
     while True:
         double = np.flatnonzero(singular[cells].sum(axis=1) > 1)
@@ -228,7 +259,7 @@ def _bisected(
         regions = np.concatenate([np.delete(regions, at), regions[at], regions[at]])
 
 
-def _numbers(corners: Array, points: Mapping[Point, int]) -> Indices:
+def _numbers(corners: Array, points: Iterable[Point]) -> Indices:
     """Numbers of the corners at some points."""
     where = {point: number for number, point in enumerate(map(tuple, corners.tolist()))}
     missing = [point for point in points if point not in where]
@@ -237,16 +268,9 @@ def _numbers(corners: Array, points: Mapping[Point, int]) -> Indices:
     return np.array([where[point] for point in points], dtype=np.int64)
 
 
-def _noded(
-    outline: Outline,
-    powers: Mapping[Point, int],
-    degree: int,
-    parameters: list[Array],
-    corners: Array,
-    cells: Indices,
-    regions: Indices,
-    chains: list[Indices],
-) -> NodedMesh:
+def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> NodedMesh:
+    outline, corners, cells = mesh.outline, mesh.corners, mesh.cells
+    regions, chains, parameters = mesh.regions, mesh.chains, mesh.parameters
     count = len(corners)
     # Edges of the curves, by the key of their two corners.
     sources = np.concatenate([np.full(len(chain) - 1, number) for number, chain in enumerate(chains)])

@@ -201,11 +201,11 @@ def rounding_error(degree: int, depth: float) -> float:
 
 
 def _discretization(tank: Tank, tolerance: float, wavenumbers: list[float]) -> Discretization:
-    degree = min(max(ceil(1.5 - 0.75 * log10(tolerance)), LOWEST_DEGREE + 1), HIGHEST_DEGREE - 1)
+    degree = min(max(ceil(2.0 - 0.75 * log10(tolerance)), LOWEST_DEGREE + 1), HIGHEST_DEGREE - 1)
     sizes = tuple(
         _contour_size(tank, piece.body)
         if piece.body in tank.hulls
-        else min(0.9 * radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.2)
+        else min(0.75 * radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.2)
         for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
     )
     of_bodies = {piece.body: wavenumber for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)}

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import ceil, dist, inf
+from math import ceil, inf
 from time import perf_counter
 
 import numpy as np
@@ -50,7 +50,8 @@ from hydroelastic.fem.core.pencil import Loads, Pencil, Surface
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
-from hydroelastic.meshes.section import SectionSizes, section_mesh
+from hydroelastic.meshes.outline import Outline
+from hydroelastic.meshes.section import SectionSizes, SectionTriangles, section_triangles
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, shapes_of_twins
@@ -96,7 +97,7 @@ class DiscreteSection:
         """Another discretization, with what it has in common with this one."""
         other = DiscreteSection(self.comm, self.tank, discretization, half=self.half, released=self.released)
         if discretization.cells == self.discretization.cells:
-            vars(other).update({name: vars(self)[name] for name in ("mesh", "is_curved") if name in vars(self)})
+            vars(other).update({name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)})
             if discretization.dry_modes == self.discretization.dry_modes:
                 other._pencils = self._pencils
         return other
@@ -111,29 +112,36 @@ class DiscreteSection:
         """The mesh (collective)."""
         return distributed(self.comm, self._noded)
 
-    @cached_property
-    def is_curved(self) -> bool:
-        """Whether cells follow curves."""
-        outline = tank_outline(self.tank, self.discretization.sizes, half=self.half, released=self.released)
-        return any(curve.path is not None for curve in outline.curves)
-
     @property
     def mesh_degree(self) -> int:
         """Degree of the cells' geometry."""
         return coordinate_degree(self.mesh.mesh)
 
+    @cached_property
+    def outline(self) -> Outline:
+        """The outline with its sizes."""
+        return tank_outline(self.tank, self.discretization.sizes, half=self.half, released=self.released)
+
+    @property
+    def is_curved(self) -> bool:
+        """Whether cells follow curves."""
+        return any(curve.path is not None for curve in self.outline.curves)
+
+    @cached_property
+    def _triangles(self) -> SectionTriangles:
+        own, depth = self.discretization, self.tank.depth
+        ends = np.array(sorted({end for curve in self.outline.curves for end in (curve.start, curve.end)}))
+        near = {}
+        for point, _ in self.points:
+            distances = np.hypot(*(ends - point).T)
+            near[point] = own.near * min(depth, float(distances[distances > 0.0].min()))
+        return section_triangles(self.outline, SectionSizes(bulk=own.bulk, points=near))
+
     def _noded(self) -> NodedMesh:
-        tank, own = self.tank, self.discretization
-        outline = tank_outline(tank, own.sizes, half=self.half, released=self.released)
+        own = self.discretization
         powers = {point.point: point.power(own.degree) for point in self.points}
-        ends = {end for curve in outline.curves for end in (curve.start, curve.end)}
-        near = {
-            point.point: own.near
-            * min([tank.depth, *(dist(point.point, other) for other in ends if other != point.point)])
-            for point in self.points
-        }
         degree = max([own.geometry_degree if self.is_curved else 1, *powers.values()])
-        return section_mesh(outline, SectionSizes(bulk=own.bulk, points=near), powers, degree)
+        return self._triangles.noded(powers, degree)
 
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
@@ -177,8 +185,10 @@ class DiscreteSection:
     def other_geometry(self) -> DiscreteSection:
         """The same with cells of another degree."""
         own = self.discretization
-        other = replace(own, geometry_degree=own.geometry_degree - 2)
-        return DiscreteSection(self.comm, self.tank, other, half=self.half, released=self.released)
+        changed = replace(own, geometry_degree=own.geometry_degree - 2)
+        other = DiscreteSection(self.comm, self.tank, changed, half=self.half, released=self.released)
+        vars(other).update({name: vars(self)[name] for name in ("_triangles", "outline") if name in vars(self)})
+        return other
 
     def estimated(self, values: Callable[[Pencils], Array]) -> tuple[Array, Array, Array]:
         """Some values, and their relative errors by the liquid and by the geometry (collective)."""

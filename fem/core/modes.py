@@ -125,9 +125,8 @@ def _shifted(pencil: Pencil, shift: float, count: int, zero: int) -> Modes:
     kinetic = pencil.kinetic
     scale = 1.0 / np.sqrt(np.abs(np.diag(pencil.stiffness)) + shift * np.diag(kinetic))
     both = scale[:, None] * scale
-    free = _kept_volumes(pencil.volume * scale)
-    mass = free.T @ (both * kinetic) @ free
-    stiffness = free.T @ (both * pencil.stiffness) @ free
+    volumes = _Volumes(pencil.volume * scale)
+    mass, stiffness = volumes.projected(both * kinetic), volumes.projected(both * pencil.stiffness)
     try:
         factor = cholesky(stiffness + shift * mass, lower=True)
     except np.linalg.LinAlgError as error:
@@ -146,7 +145,7 @@ def _shifted(pencil: Pencil, shift: float, count: int, zero: int) -> Modes:
     seen = np.where(values > 0.0, values, np.inf)[kept].min(initial=np.inf)
     kept &= (values < 0.0) | (values < seen / HIDDEN)
     order = np.flatnonzero(kept)[np.argsort(values[kept], kind="stable")]
-    zeta = scale[:, None] * (free @ solve_triangular(factor, vectors[:, order], lower=True, trans="T"))
+    zeta = scale[:, None] * volumes.whole(solve_triangular(factor, vectors[:, order], lower=True, trans="T"))
     growing = int(np.count_nonzero(values[order] < 0.0))
     return Modes(
         pencil=pencil,
@@ -159,11 +158,30 @@ def _shifted(pencil: Pencil, shift: float, count: int, zero: int) -> Modes:
     )
 
 
-def _kept_volumes(volumes: Array) -> Array:
-    """An orthonormal basis of the displacements that keep the volumes, as columns."""
-    if not len(volumes):
-        return np.eye(volumes.shape[1])
-    return np.asarray(qr(volumes.T)[0][:, len(volumes) :])
+class _Volumes:
+    """Displacements that keep the volumes: of Vᵀ = Q R, the columns of Q beyond R's, by Householder's reflections."""
+
+    def __init__(self, volumes: Array) -> None:
+        self._count = len(volumes)
+        if self._count:
+            (self._reflections, self._factors), _ = qr(volumes.T, mode="raw")
+
+    def _turned(self, matrix: Array, side: str, transposed: str) -> Array:
+        own = lapack.dormqr(side, transposed, self._reflections, self._factors, matrix, 64 * max(matrix.shape))
+        return np.asarray(own[0])
+
+    def projected(self, matrix: Array) -> Array:
+        """Zᵀ (matrix) Z."""
+        if not self._count:
+            return matrix
+        turned = self._turned(self._turned(matrix, "L", "T"), "R", "N")
+        return turned[self._count :, self._count :]
+
+    def whole(self, vectors: Array) -> Array:
+        """Z (vectors)."""
+        if not self._count:
+            return vectors
+        return self._turned(np.vstack([np.zeros((self._count, vectors.shape[1])), vectors]), "L", "N")
 
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:

@@ -226,8 +226,9 @@ class Loads:
         volumes[np.abs(volumes) <= _NO_VOLUME * largest] = 0.0
         coupling[held] = 0.0
         potentials = liquid.factorized(zeros, closed).solve(coupling)
-        weighed = np.array(liquid.densities)[liquid.layer_of][:, None] * coupling
-        added = weighed.T @ potentials
+        loaded = np.flatnonzero(coupling.any(axis=1))
+        density = np.array(liquid.densities)[liquid.layer_of[loaded]]
+        added = (density[:, None] * coupling[loaded]).T @ potentials[loaded]
         liquid.comm.Allreduce(MPI.IN_PLACE, added)
         stiffness, mass = _body_matrices(bodies)
         count = coupling.shape[1]

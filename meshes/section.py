@@ -53,13 +53,13 @@ class SectionSizes:
         bulk: largest anywhere.
         growth: by which sizes grow with the distance from what limits them.
         turn: angle by which an edge of a cell may turn along a curve, rad.
-        points: size at single points, as at singular ones.
+        points: size at singular points, and the largest angle of a cell there, rad.
     """
 
     bulk: float
     growth: float = 1.0
     turn: float = 0.7
-    points: Mapping[Point, float] = field(default_factory=dict)
+    points: Mapping[Point, tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,9 +100,17 @@ def section_triangles(outline: Outline, sizes: SectionSizes) -> SectionTriangles
     size = _SizeField(outline, sizes)
     parameters = [size.division(curve) for curve in outline.curves]
     corners, cells, regions, chains = _triangles(outline, parameters, size)
-    corners, cells, regions = _bisected(corners, cells, regions, sizes.points, chains)
+    mesh = _Bisection(corners, cells, regions, chains)
+    angles = dict(zip(_numbers(corners, sizes.points).tolist(), (own for _, own in sizes.points.values()), strict=True))
+    mesh.part(set(angles))
+    mesh.fan(angles)
     return SectionTriangles(
-        outline=outline, corners=corners, cells=cells, regions=regions, chains=chains, parameters=parameters
+        outline=outline,
+        corners=mesh.corners,
+        cells=mesh.cells,
+        regions=mesh.regions,
+        chains=chains,
+        parameters=parameters,
     )
 
 
@@ -125,7 +133,7 @@ class _SizeField:
                 starts += [*middles]
                 ends += [*middles]
                 near += [*np.minimum(sizes.turn * radii, np.sqrt(2.0 * radii * _gaps(outline, curve, middles)))]
-        for point, own in sizes.points.items():
+        for point, (own, _) in sizes.points.items():
             starts.append(np.array(point))
             ends.append(np.array(point))
             near.append(own)
@@ -238,25 +246,50 @@ def _triangles(
     return corners, np.concatenate(cells), regions, chains
 
 
-def _bisected(
-    corners: Array, cells: Indices, regions: Indices, points: Mapping[Point, float], chains: list[Indices]
-) -> tuple[Array, Indices, Indices]:
-    """Bisect inner edges between two singular points."""
-    singular = np.isin(np.arange(len(corners)), _numbers(corners, points))
-    on_curves = {frozenset(pair) for chain in chains for pair in pairwise(chain.tolist())}
-    while True:
-        double = np.flatnonzero(singular[cells].sum(axis=1) > 1)
-        pairs = {frozenset(cells[cell][singular[cells[cell]]][:2].tolist()) for cell in double} - on_curves
-        if not pairs:
-            return corners, cells, regions
-        pair = next(iter(sorted(map(sorted, pairs))))
-        at = np.flatnonzero(np.isin(cells, pair).sum(axis=1) == 2)
-        middle = len(corners)
-        corners = np.vstack([corners, corners[pair].mean(axis=0)])
-        singular = np.append(singular, False)
-        halves = [np.where(cells[at] == end, middle, cells[at]) for end in pair]
-        cells = np.vstack([np.delete(cells, at, axis=0), *halves])
-        regions = np.concatenate([np.delete(regions, at), regions[at], regions[at]])
+class _Bisection:
+    """Cells whose edges are bisected one by one, with the cells on both sides."""
+
+    def __init__(self, corners: Array, cells: Indices, regions: Indices, chains: list[Indices]) -> None:
+        self.corners, self.cells, self.regions = corners, cells, regions
+        self._on_curves = {frozenset(pair) for chain in chains for pair in pairwise(chain.tolist())}
+
+    def bisect(self, pair: tuple[int, int]) -> None:
+        if frozenset(pair) in self._on_curves:
+            return
+        at = np.flatnonzero(np.isin(self.cells, pair).sum(axis=1) == 2)
+        middle = len(self.corners)
+        self.corners = np.vstack([self.corners, self.corners[list(pair)].mean(axis=0)])
+        halves = [np.where(self.cells[at] == end, middle, self.cells[at]) for end in pair]
+        self.cells = np.vstack([np.delete(self.cells, at, axis=0), *halves])
+        self.regions = np.concatenate([np.delete(self.regions, at), self.regions[at], self.regions[at]])
+
+    def part(self, singular: set[int]) -> None:
+        """Leave each cell with one singular corner at most."""
+        while True:
+            is_singular = np.isin(self.cells, list(singular))
+            pairs = {
+                tuple(sorted(self.cells[cell][is_singular[cell]][:2].tolist()))
+                for cell in np.flatnonzero(is_singular.sum(axis=1) > 1)
+            }
+            pairs = {pair for pair in pairs if frozenset(pair) not in self._on_curves}
+            if not pairs:
+                return
+            self.bisect(min(pairs))
+
+    def fan(self, angles: Mapping[int, float]) -> None:
+        """Halve the angles of cells at singular corners until none is larger than it may be."""
+        while True:
+            at, own = np.nonzero(np.isin(self.cells, list(angles)))
+            ends = [self.cells[at, (own + turn) % 3] for turn in (0, 1, 2)]
+            one, other = (self.corners[end] - self.corners[ends[0]] for end in ends[1:])
+            found = np.abs(np.arctan2(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], (one * other).sum(axis=1)))
+            wide = found > np.array([angles[corner] for corner in ends[0].tolist()])
+            pairs = {(min(pair), max(pair)) for pair in zip(ends[1][wide].tolist(), ends[2][wide].tolist(), strict=True)}
+            pairs = {pair for pair in pairs if frozenset(pair) not in self._on_curves}
+            if not pairs:
+                return
+            for pair in sorted(pairs):
+                self.bisect(pair)
 
 
 def _numbers(corners: Array, points: Iterable[Point]) -> Indices:

@@ -168,8 +168,8 @@ def discretization_of_modes(tank: Tank, tolerance: float, sought: SoughtModes) -
 
 
 def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
-    """Of the limit of infinite frequency: no waves beside the bodies."""
-    return _discretization(
+    """Of the limit of infinite frequency: no waves beside the bodies, and sharper singular points."""
+    found = _discretization(
         tank,
         tolerance,
         [
@@ -180,6 +180,7 @@ def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
             for piece in level.pieces
         ],
     )
+    return replace(found, degree=min(found.degree + 1, HIGHEST_DEGREE))
 
 
 def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
@@ -212,7 +213,7 @@ def _discretization(tank: Tank, tolerance: float, wavenumbers: list[float]) -> D
     return Discretization(
         degree=degree,
         sizes=sizes,
-        bulk=0.25,
+        bulk=0.25 * max(1.0, *(layer.depth for layer in tank.layers)),
         near=0.12,
         geometry_degree=6,
         dry_modes=tuple(

@@ -132,9 +132,9 @@ class DiscreteSection:
         own, depth = self.discretization, self.tank.depth
         ends = np.array(sorted({end for curve in self.outline.curves for end in (curve.start, curve.end)}))
         near = {}
-        for point, _ in self.points:
-            distances = np.hypot(*(ends - point).T)
-            near[point] = own.near * min(depth, float(distances[distances > 0.0].min()))
+        for point in self.points:
+            distances = np.hypot(*(ends - point.point).T)
+            near[point.point] = own.near * min(depth, float(distances[distances > 0.0].min())), point.largest_angle
         return section_triangles(self.outline, SectionSizes(bulk=own.bulk, points=near))
 
     def _noded(self) -> NodedMesh:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# The remainder of the series is taken twice.
-_SAFETY = 2.0
+# The remainder of the series is taken three times: rates grow a little from one degree to the next.
+_SAFETY = 3.0
 
 
 def remainder(finest: Array, finer: Array, coarse: Array, *, rates: tuple[float, float] = (0.1, 0.5)) -> Array:

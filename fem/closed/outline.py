@@ -311,6 +311,8 @@ _JUMP = 2.0
 _SIDE_JUMPS = 1.0
 # ψ with terms weaker than this is smooth enough.
 _SMOOTH_ENOUGH = 2.9
+# Curvatures that differ by a smaller part are equal; parameters of a curve at which they are taken.
+_SAME_CURVATURE, _BESIDE = 0.1, 1e-3
 # Parameter of a curve from its end at which its direction there is taken.
 _NEAR = 1e-7
 
@@ -345,7 +347,7 @@ def singular_points(tank: Tank, *, half: bool, released: bool) -> tuple[Singular
         if point in smooth:
             continue
         exponents = [_exponent(sector, zero, released) for sector in _sectors(outline, around, released)]
-        sharpest = min([*exponents, kinks.get(point, inf)])
+        sharpest = min([*exponents, kinks.get(point, inf), _bend(outline, around)])
         if sharpest < _SMOOTH_ENOUGH:
             points.append(SingularPoint(point, sharpest))
     return tuple(points)
@@ -414,6 +416,26 @@ def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_press
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
     return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle
+
+
+def _bend(outline: Outline, around: list[_Wedge]) -> float:
+    """α where the curvature of a contour jumps, as between a straight side and a round bilge; else infinite."""
+    for wedge in around:
+        curves = [outline.curves[number] for number in (wedge.leaving, wedge.coming)]
+        if any(curve.path is not None for curve in curves) and abs(wedge.angle - pi) < _SMOOTH:
+            point = {curves[0].start, curves[0].end} & {curves[1].start, curves[1].end}
+            one, other = (_curvature(curve, from_start=curve.start in point) for curve in curves)
+            # Both are seen from the point outwards: of a smooth curve they have opposite signs.
+            if abs(one + other) > _SAME_CURVATURE * max(abs(one), abs(other)):
+                return 2.0
+    return inf
+
+
+def _curvature(curve: Curve, *, from_start: bool) -> float:
+    """Signed curvature of a curve at one of its ends, seen from there."""
+    points = curve.at(np.array([0.0, _BESIDE, 2.0 * _BESIDE]) if from_start else 1.0 - np.array([0.0, _BESIDE, 2.0 * _BESIDE]))
+    one, other = points[1] - points[0], points[2] - points[1]
+    return float(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other) / np.hypot(*one))
 
 
 def _kinks(tank: Tank, *, released: bool) -> dict[Point, float]:

@@ -71,6 +71,8 @@ _ROUNDING_OF_SPREAD = 1e-15
 _ROOM_FOR_ROUNDING = 5.0
 # Added mass below this part of ρ times the square (roll: fourth power) of the float's extent is rounding.
 _NO_LIQUID = 1e-9
+# α of singular points that need no smaller cells.
+_WEAK = 1.9
 # Degree at which cells of two degrees of the geometry are compared.
 _DEGREE_OF_GEOMETRY = 5
 
@@ -134,7 +136,8 @@ class DiscreteSection:
         near = {}
         for point in self.points:
             distances = np.hypot(*(ends - point.point).T)
-            near[point.point] = own.near * min(depth, float(distances[distances > 0.0].min())), point.largest_angle
+            size = own.near * min(depth, float(distances[distances > 0.0].min()))
+            near[point.point] = size if point.exponent < _WEAK else inf, point.largest_angle
         return section_triangles(self.outline, SectionSizes(bulk=own.bulk, points=near))
 
     def _noded(self) -> NodedMesh:

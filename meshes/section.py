@@ -32,15 +32,15 @@ from scipy.sparse.csgraph import connected_components
 from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.interrupts import interrupts_deferred
-from hydroelastic.meshes.outline import Curve, Outline, Point
+from hydroelastic.meshes.outline import Curve, Outline, Point, as_points
 from hydroelastic.meshes.tagged_mesh import MeshError
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 # Points of a curve at which sizes are taken, and those for its radius of curvature, of which some are kept.
-_SAMPLES = np.linspace(0.0, 1.0, 65)
-_FINE = np.linspace(0.0, 1.0, 97)
+_SAMPLES: Array = np.linspace(0.0, 1.0, 65, dtype=np.float64)
+_FINE: Array = np.linspace(0.0, 1.0, 97, dtype=np.float64)
 _KEPT = slice(0, None, 6)
 _EDGES = ((1, 2), (0, 2), (0, 1))
 
@@ -101,7 +101,8 @@ def section_triangles(outline: Outline, sizes: SectionSizes) -> SectionTriangles
     parameters = [size.division(curve) for curve in outline.curves]
     corners, cells, regions, chains = _triangles(outline, parameters, size)
     mesh = _Bisection(corners, cells, regions, chains)
-    angles = dict(zip(_numbers(corners, sizes.points).tolist(), (own for _, own in sizes.points.values()), strict=True))
+    largest = (angle for _, angle in sizes.points.values())
+    angles: dict[int, float] = dict(zip(map(int, _numbers(corners, sizes.points)), largest, strict=True))
     mesh.part(set(angles))
     mesh.fan(angles)
     return SectionTriangles(
@@ -119,7 +120,9 @@ class _SizeField:
 
     def __init__(self, outline: Outline, sizes: SectionSizes) -> None:
         self._sizes = sizes
-        starts, ends, near = [], [], []
+        starts: list[Array] = []
+        ends: list[Array] = []
+        near: list[float] = []
         for curve in outline.curves:
             if np.isfinite(curve.size):
                 chain = curve.polyline()
@@ -203,8 +206,8 @@ def _triangles(
         geo, mesh = gmsh.model.geo, gmsh.model.mesh
         lines = []
         for curve, own in zip(outline.curves, parameters, strict=True):
-            chain = []
-            for point in map(tuple, curve.at(own).tolist()):
+            chain: list[int] = []
+            for point in as_points(curve.at(own)):
                 if point not in nodes:
                     nodes[point] = len(nodes) + 1
                     geo.addPoint(*point, 0.0, tag=nodes[point])
@@ -284,7 +287,9 @@ class _Bisection:
             one, other = (self.corners[end] - self.corners[ends[0]] for end in ends[1:])
             found = np.abs(np.arctan2(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], (one * other).sum(axis=1)))
             wide = found > np.array([angles[corner] for corner in ends[0].tolist()])
-            pairs = {(min(pair), max(pair)) for pair in zip(ends[1][wide].tolist(), ends[2][wide].tolist(), strict=True)}
+            pairs = {
+                (min(pair), max(pair)) for pair in zip(ends[1][wide].tolist(), ends[2][wide].tolist(), strict=True)
+            }
             pairs = {pair for pair in pairs if frozenset(pair) not in self._on_curves}
             if not pairs:
                 return
@@ -294,7 +299,7 @@ class _Bisection:
 
 def _numbers(corners: Array, points: Iterable[Point]) -> Indices:
     """Numbers of the corners at some points."""
-    where = {point: number for number, point in enumerate(map(tuple, corners.tolist()))}
+    where = {point: number for number, point in enumerate(as_points(corners))}
     missing = [point for point in points if point not in where]
     if missing:
         raise MeshError(f"no node of the mesh lies at {missing[0]}")
@@ -323,7 +328,7 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
     )
     weights = np.column_stack([1.0 - element.points.sum(axis=1), element.points])
     mapped = np.broadcast_to(weights, (len(cells), *weights.shape)).copy()
-    singular = dict(zip(_numbers(corners, powers).tolist(), powers.values(), strict=True))
+    singular = dict(zip(map(int, _numbers(corners, powers)), powers.values(), strict=True))
     for corner, power in singular.items():
         at, own = np.nonzero(cells == corner)
         near = np.zeros((len(at), 1, 3), dtype=bool)
@@ -343,7 +348,9 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
             first, last = np.where(turned, ends[own], starts[own]), np.where(turned, starts[own], ends[own])
             one, other = mapped[at][:, :, a], mapped[at][:, :, b]
             t = 0.5 * (1.0 + other - one)
-            chord = corners[cells[at, a]][:, None] * (1.0 - t)[..., None] + corners[cells[at, b]][:, None] * t[..., None]
+            chord = (
+                corners[cells[at, a]][:, None] * (1.0 - t)[..., None] + corners[cells[at, b]][:, None] * t[..., None]
+            )
             exact = curve.at((first[:, None] + (last - first)[:, None] * t).ravel()).reshape(*t.shape, 2)
             room = 1.0 - (other - one) ** 2
             blend = np.where(room > 0.0, 4.0 * one * other / np.where(room > 0.0, room, 1.0), 0.0)

@@ -1,8 +1,8 @@
 """The Dataset of a closed section, in SI units per metre of width.
 
 Dimensions: `mode`, all modes that were solved for, ascending, of which the first `attrs["asked"]` were asked for;
-`growing_mode`; `cause` of errors; `dof`, the unknowns of all bodies; `share`, what has potential energy: these, then the
-surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of floats;
+`growing_mode`; `cause` of errors; `dof`, the unknowns of all bodies; `share`, what has potential energy: these, then
+the surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of floats;
 `influenced_dof`, `radiating_dof`, the motions of floats.
 """
 
@@ -27,7 +27,10 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
     found, growing = solution.found, solution.found.modes.growing
     data = xr.Dataset(
         {**_of_modes(solution, slice(growing, None), ""), **_of_modes(solution, slice(0, growing), "growing_")},
-        coords={"cause": list(CAUSES), "dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)]},
+        coords={
+            "cause": list(CAUSES),
+            "dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)],
+        },
     )
     if solution.tank.elastic:
         data = data.merge(_tones(solution))

@@ -71,9 +71,7 @@ class Discretization:
         found = self
         if causes["dry_modes"] > _NEGLIGIBLE:
             factor = min(max(1.3, (2.0 * causes["dry_modes"]) ** (1.0 / 6.0)), 2.0)
-            found = replace(
-                found, dry_modes=tuple(min(MOST_SHAPES, ceil(factor * count)) for count in found.dry_modes)
-            )
+            found = replace(found, dry_modes=tuple(min(MOST_SHAPES, ceil(factor * count)) for count in found.dry_modes))
         if causes["geometry"] > _NEGLIGIBLE and found.geometry_degree < HIGHEST_DEGREE:
             found = replace(found, geometry_degree=found.geometry_degree + 2)
         if causes["liquid"] > _NEGLIGIBLE:

@@ -45,6 +45,7 @@ Directed = tuple[int, bool]
 # Largest element along the sphere of a bowl, in radii of its surface.
 _OF_BOWL = 0.5
 
+
 def layer_names(tank: Tank) -> tuple[str, ...]:
     """Return the physical names of the cells of each layer, from the bottom up."""
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
@@ -325,8 +326,11 @@ class SingularPoint(NamedTuple):
 
     @property
     def largest_angle(self) -> float:
-        """Of a cell there, rad. With mα near 2 the functions of the angle are polynomials of degree 2 or 3 in a cell: halved
-        angles make errors at sharp points 10 to 50 times smaller."""
+        """Of a cell there, rad.
+
+        With mα near 2 the functions of the angle are polynomials of degree 2 or 3 in a cell: halved angles make errors
+        at sharp points 10 to 50 times smaller.
+        """
         return 0.7 if self.exponent < 0.9 else 1.15
 
     def power(self, degree: int) -> int:
@@ -433,7 +437,9 @@ def _bend(outline: Outline, around: list[_Wedge]) -> float:
 
 def _curvature(curve: Curve, *, from_start: bool) -> float:
     """Signed curvature of a curve at one of its ends, seen from there."""
-    points = curve.at(np.array([0.0, _BESIDE, 2.0 * _BESIDE]) if from_start else 1.0 - np.array([0.0, _BESIDE, 2.0 * _BESIDE]))
+    points = curve.at(
+        np.array([0.0, _BESIDE, 2.0 * _BESIDE]) if from_start else 1.0 - np.array([0.0, _BESIDE, 2.0 * _BESIDE])
+    )
     one, other = points[1] - points[0], points[2] - points[1]
     return float(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other) / np.hypot(*one))
 

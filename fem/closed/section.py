@@ -99,7 +99,9 @@ class DiscreteSection:
         """Another discretization, with what it has in common with this one."""
         other = DiscreteSection(self.comm, self.tank, discretization, half=self.half, released=self.released)
         if discretization.cells == self.discretization.cells:
-            vars(other).update({name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)})
+            vars(other).update(
+                {name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)}
+            )
             if discretization.dry_modes == self.discretization.dry_modes:
                 other._pencils = self._pencils
         return other
@@ -167,9 +169,7 @@ class DiscreteSection:
         if self.half:
             counts = shapes_of_twins(tank, counts)
             planes = {parity: (*zero, SYMMETRY_PLANE) if parity == "antisymmetric" else zero for parity in PARITIES}
-            pencils = {
-                parity: loads.pencil(moving_bodies(tank, counts, parity), planes[parity]) for parity in PARITIES
-            }
+            pencils = {parity: loads.pencil(moving_bodies(tank, counts, parity), planes[parity]) for parity in PARITIES}
         else:
             pencils = {None: loads.pencil(moving_bodies(tank, counts, None), zero)}
         return {key: pencil.released([INTERFACE]) for key, pencil in pencils.items()} if self.released else pencils
@@ -208,9 +208,10 @@ class DiscreteSection:
     def rounding(self, values: Array) -> Array:
         """Relative rounding of λ."""
         lowest = values[values > 0.0].min(initial=inf)
-        return 2.0 * rounding_error(self.discretization.degree, self.tank.depth) + _ROUNDING_OF_SPREAD * np.abs(
-            values
-        ) / lowest
+        return (
+            2.0 * rounding_error(self.discretization.degree, self.tank.depth)
+            + _ROUNDING_OF_SPREAD * np.abs(values) / lowest
+        )
 
 
 def distributed(comm: MPI.Comm, make: Callable[[], NodedMesh]) -> TankMesh:
@@ -417,11 +418,13 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
 
     matrix, *_ = (whole(section.pencils(section.discretization.degree)),)
     diagonal, liquid, geometry = section.estimated(lambda pencils: np.diag(whole(pencils)).copy())
-    scales = np.array([
-        tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)
-        for index in tank.rigid
-        for dof in bodies[index].dofs
-    ])
+    scales = np.array(
+        [
+            tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)
+            for index in tank.rigid
+            for dof in bodies[index].dofs
+        ]
+    )
     moves = diagonal > _NO_LIQUID * scales
     rounding = np.full(len(diagonal), rounding_error(section.discretization.degree, tank.depth))
     errors = np.array([liquid, np.zeros_like(liquid), geometry, rounding])[:, moves]
@@ -582,6 +585,4 @@ def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) ->
 
 
 def _uncertain(found: SectionModes, sought: SoughtModes) -> bool:
-    return any(
-        reached and not tone.certain for tone, reached in zip(found.tones, sought.reaches_tones, strict=False)
-    )
+    return any(reached and not tone.certain for tone, reached in zip(found.tones, sought.reaches_tones, strict=False))

@@ -134,7 +134,13 @@ class FloatMode:
 
 
 def float_modes(
-    bodies: Sequence[Body], floats: Sequence[int], values: Array, amplitudes: Array, added: Array | None, *, complete: bool
+    bodies: Sequence[Body],
+    floats: Sequence[int],
+    values: Array,
+    amplitudes: Array,
+    added: Array | None,
+    *,
+    complete: bool,
 ) -> tuple[FloatMode, ...]:
     """Find the mode of each restored motion of the floats.
 
@@ -190,7 +196,9 @@ def mode_kinds(energies: Array, bodies: Sequence[Body], surfaces: Sequence[Surfa
     kinds = [*of_bodies, *of_surfaces]
     # Of two equal ones the liquids count first.
     names = list(dict.fromkeys(["sloshing", *of_surfaces, *of_bodies]))
-    of_kind = np.array([[kind == name for name in names] for kind in kinds], dtype=float).reshape(len(kinds), len(names))
+    of_kind = np.array([[kind == name for name in names] for kind in kinds], dtype=float).reshape(
+        len(kinds), len(names)
+    )
     return [names[place] for place in (energies @ of_kind).argmax(axis=1)]
 
 

@@ -56,4 +56,6 @@ def solve_adaptive(
 
 def largest(errors: np.ndarray, causes: tuple[str, ...]) -> dict[str, float]:
     """The largest error by each cause, from errors of shape (causes, values)."""
-    return {cause: float(np.nan_to_num(own, nan=1.0).max(initial=0.0)) for cause, own in zip(causes, errors, strict=True)}
+    return {
+        cause: float(np.nan_to_num(own, nan=1.0).max(initial=0.0)) for cause, own in zip(causes, errors, strict=True)
+    }

@@ -227,7 +227,11 @@ def dry_mode_count(own: Beam, wavenumber: float, tolerance: float) -> int:
     needed = 0.0
     for part in own.sections:
         ratio = part.flexural_rigidity / softest
-        alike = (other for other in own.sections if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE)
+        alike = (
+            other
+            for other in own.sections
+            if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
+        )
         length = sum(other.length for other in alike)
         half_waves = wavenumber * ratio**-0.25 * length / pi
         tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)

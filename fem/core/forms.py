@@ -51,7 +51,7 @@ def normal_load(v, q, weight, normal):  # type: ignore[no-untyped-def]
 
 
 class CompiledForms(NamedTuple):
-    """Forms on any mesh of one kind; `transverse` is the constant n² or k² of the first, ``None`` in a plane section."""
+    """Forms on any mesh of one kind; `transverse` is the constant n² or k² of the first, ``None`` in a plane."""
 
     laplace: fem.forms.CompiledForm
     surface: fem.forms.CompiledForm

@@ -117,9 +117,7 @@ class Liquid:
 
     def surface(self, name: str) -> sp.csr_matrix:
         """∫ηq over the facets of a name, rows of this process (collective)."""
-        form = form_on_facets(
-            self.forms.surface, [self.space] * 2, self.mesh.mesh, MARKED, self.mesh.facets(name)
-        )
+        form = form_on_facets(self.forms.surface, [self.space] * 2, self.mesh.mesh, MARKED, self.mesh.facets(name))
         return _rows(_assembled(form))
 
     def trace(self, name: str, layer: int) -> Trace:
@@ -183,7 +181,10 @@ class ShapeSpace:
             cells, local = _cells_at(domain, liquid.mesh.facets(name))
             dofs = [space.dofmap.cell_dofs(cell)[closure[side]] for cell, side in zip(cells, local, strict=True)]
             middles = compute_midpoints(domain, topology.dim, cells)[:, 0]
-            sides = [np.sign(x - coordinates[own, 0].mean()) * np.ones(len(own)) for x, own in zip(middles, dofs, strict=True)]
+            sides = [
+                np.sign(x - coordinates[own, 0].mean()) * np.ones(len(own))
+                for x, own in zip(middles, dofs, strict=True)
+            ]
             own, first = np.unique(np.concatenate([np.empty(0, dtype=np.int32), *dofs]), return_index=True)
             found = (
                 space.dofmap.index_map.local_to_global(own.astype(np.int32)),
@@ -191,7 +192,9 @@ class ShapeSpace:
                 np.concatenate([np.empty(0), *sides])[first],
             )
             # Also the ghosts: of a facet on the boundary of a process another may own the unknowns.
-            numbers, points, of_sides = (np.concatenate(parts) for parts in zip(*liquid.comm.allgather(found), strict=True))
+            numbers, points, of_sides = (
+                np.concatenate(parts) for parts in zip(*liquid.comm.allgather(found), strict=True)
+            )
             numbers, first = np.unique(numbers, return_index=True)
             self.points[name] = points[first], of_sides[first]
             self._columns[name] = (self._dim * numbers[:, None] + np.arange(self._dim)).ravel()

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from dolfinx import fem
@@ -70,7 +71,7 @@ class Modes:
         pencil, size = self.pencil, self.pencil.body_size
         own = self.vectors * (pencil.stiffness @ self.vectors) / self.values
         stops = np.cumsum([size, *(count for _, count in pencil.surfaces)])
-        of_surfaces = [own[a:b].sum(axis=0) for a, b in zip(stops[:-1], stops[1:], strict=True)]
+        of_surfaces = [own[a:b].sum(axis=0) for a, b in pairwise(stops)]
         return np.vstack([own[:size], *of_surfaces]).T
 
     def potential(self, number: int) -> fem.Function:

@@ -75,7 +75,9 @@ def merged_modes(pencils: Mapping[Key, Pencil], count: int) -> MergedModes[Key]:
             key: limit if modes.complete else min(float(modes.values[-1]), limit) for key, modes in parts.items()
         }
         first = min(reached, key=reached.__getitem__)
-        there = sum(int(np.count_nonzero((modes.values > 0.0) & (modes.values <= reached[first]))) for modes in parts.values())
+        there = sum(
+            int(np.count_nonzero((modes.values > 0.0) & (modes.values <= reached[first]))) for modes in parts.values()
+        )
         if there >= count or reached[first] >= limit:
             break
         shares[first] += max(4, count - there)

@@ -3,8 +3,8 @@
     K ζ = ω² (M + M_a) ζ,    M_a = Σ ρ CᵀA⁺C over the layers,    V ζ = 0        ζ = (a, η): bodies, then surfaces
 
 C has a column for each shape of each body, ∫vᵢ·n q, and for each unknown of a surface that moves, ∫ηⱼ q in the layer
-below and −∫ηⱼ q in the one above. K holds the stiffness of the bodies and Δρ g ∫ηᵢηⱼ, M the mass of the bodies. V is the
-volume that each unknown takes from each closed layer; the constant of ψ there is its Lagrange multiplier.
+below and −∫ηⱼ q in the one above. K holds the stiffness of the bodies and Δρ g ∫ηᵢηⱼ, M the mass of the bodies. V is
+the volume that each unknown takes from each closed layer; the constant of ψ there is its Lagrange multiplier.
 
 K, M + M_a and V are small and dense, and the same on every process; A⁺C has the rows of each.
 """

@@ -57,7 +57,7 @@ class SectionSizes:
     """
 
     bulk: float
-    growth: float = 1.0
+    growth: float = 0.5
     turn: float = 0.7
     points: Mapping[Point, tuple[float, float]] = field(default_factory=dict)
 
@@ -340,9 +340,9 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
     ends = np.concatenate([own[1:] for own in parameters])
     for side, (a, b) in enumerate(_EDGES):
         for number, curve in enumerate(outline.curves):
-            at = np.flatnonzero((edge[side] >= 0) & (sources[edge[side]] == number)) if curve.path is not None else ()
-            if not len(at):
+            if curve.path is None:
                 continue
+            at = np.flatnonzero((edge[side] >= 0) & (sources[edge[side]] == number))
             own = edge[side][at]
             turned = cells[at, a] != firsts[own]
             first, last = np.where(turned, ends[own], starts[own]), np.where(turned, starts[own], ends[own])

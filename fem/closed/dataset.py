@@ -2,8 +2,8 @@
 
 Dimensions: `mode`, all modes that were solved for, ascending, of which the first `attrs["asked"]` were asked for;
 `growing_mode`; `cause` of errors; `dof`, the unknowns of all bodies; `share`, what has potential energy: these, then
-the surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of floats;
-`influenced_dof`, `radiating_dof`, the motions of floats.
+the surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of
+floats; `influenced_dof` and `radiating_dof`, the motions of floats.
 """
 
 from __future__ import annotations

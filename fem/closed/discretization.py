@@ -204,7 +204,7 @@ def _discretization(tank: Tank, tolerance: float, wavenumbers: list[float]) -> D
     sizes = tuple(
         _contour_size(tank, piece.body)
         if piece.body in tank.hulls
-        else min(0.75 * radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.2)
+        else min(0.8 * radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.2)
         for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
     )
     of_bodies = {piece.body: wavenumber for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)}

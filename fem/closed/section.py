@@ -193,17 +193,16 @@ class DiscreteSection:
         vars(other).update({name: vars(self)[name] for name in ("_triangles", "outline") if name in vars(self)})
         return other
 
-    def estimated(self, values: Callable[[Pencils], Array]) -> tuple[Array, Array, Array]:
-        """Some values, and their relative errors by the liquid and by the geometry (collective)."""
+    def errors_of(self, finest: Array, values: Callable[[Pencils], Array]) -> tuple[Array, Array]:
+        """Relative errors of some values by the liquid and by the geometry, from values of neighbours (collective)."""
         degree = self.discretization.degree
-        finest, *coarser = (values(self.pencils(degree - less)) for less in (0, 1, 2))
-        liquid = remainder(finest, *coarser)
+        liquid = remainder(finest, *(values(self.pencils(degree - less)) for less in (1, 2)))
         geometry = np.zeros(len(finest))
         if self.is_curved:
             low = min(degree, _DEGREE_OF_GEOMETRY)
             here, there = values(self.pencils(low)), values(self.other_geometry().pencils(low))
             geometry = np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here))
-        return finest, liquid, geometry
+        return liquid, geometry
 
     def rounding(self, values: Array) -> Array:
         """Relative rounding of λ."""
@@ -303,7 +302,8 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
         found = {key: _values(pencils[key], len(part.values), part.growing) for key, part in modes.parts.items()}
         return modes.of_parts(found)
 
-    found, liquid, geometry = section.estimated(values)
+    found = modes.values
+    liquid, geometry = section.errors_of(found, values)
     dry = np.zeros(len(found))
     if section.tank.elastic:
         fewer = (
@@ -416,8 +416,9 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
             matrix += path @ pencil.added_mass[:size, :size] @ path.T
         return matrix
 
-    matrix, *_ = (whole(section.pencils(section.discretization.degree)),)
-    diagonal, liquid, geometry = section.estimated(lambda pencils: np.diag(whole(pencils)).copy())
+    matrix = whole(section.pencils(section.discretization.degree))
+    diagonal = np.diag(matrix).copy()
+    liquid, geometry = section.errors_of(diagonal, lambda pencils: np.diag(whole(pencils)).copy())
     scales = np.array(
         [
             tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)

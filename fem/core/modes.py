@@ -75,10 +75,10 @@ class Modes:
         return np.vstack([own[:size], *of_surfaces]).T
 
     def potential(self, number: int) -> fem.Function:
-        """ψ of a mode, with the constants of its closed layers."""
+        """ψ of a mode, with the constants of its closed layers (collective)."""
         pencil, liquid = self.pencil, self.pencil.liquid
         zeta, value = self.vectors[:, number], self.values[number]
-        psi = pencil.potentials @ zeta
+        psi = pencil.operator.solve((pencil.coupling @ zeta)[:, None])[:, 0]
         # K ζ − λ T ζ = λ Σ ρ c V: the constant c of each closed layer.
         rest = pencil.stiffness @ zeta - value * (pencil.kinetic @ zeta)
         scale = 1.0 / np.sqrt(np.abs(np.diag(pencil.stiffness)) + np.diag(pencil.kinetic))

@@ -6,7 +6,7 @@ C has a column for each shape of each body, ∫vᵢ·n q, and for each unknown o
 below and −∫ηⱼ q in the one above. K holds the stiffness of the bodies and Δρ g ∫ηᵢηⱼ, M the mass of the bodies. V is
 the volume that each unknown takes from each closed layer; the constant of ψ there is its Lagrange multiplier.
 
-K, M + M_a and V are small and dense, and the same on every process; A⁺C has the rows of each.
+K, M + M_a and V are small and dense, and the same on every process; C is sparse, with the rows of each.
 """
 
 from __future__ import annotations
@@ -17,15 +17,18 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+import scipy.sparse as sp
 from mpi4py import MPI
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.core.bodies import Body
-from hydroelastic.fem.core.liquid import Liquid
+from hydroelastic.fem.core.liquid import Factorized, Indices, Liquid
 
 Array = NDArray[np.float64]
 
+# Loads that are solved for at once.
+_TOGETHER = 128
 # Volumes below this part of the largest flux that moves in and out are rounding.
 _NO_VOLUME = 1e-10
 # Constraints that differ by less differ by rounding of the loads.
@@ -55,7 +58,8 @@ class Pencil:
         volume: V, shape (constraints, n), independent rows.
         volumes: of all closed layers, as rows.
         closed: these layers.
-        potentials: A⁺C, rows of this process, shape (unknowns of ψ, n).
+        coupling: C, rows of this process, shape (unknowns of ψ, n).
+        operator: A⁺.
     """
 
     liquid: Liquid
@@ -67,7 +71,8 @@ class Pencil:
     volume: Array
     volumes: Array
     closed: tuple[int, ...]
-    potentials: Array
+    coupling: sp.csr_array
+    operator: Factorized
 
     @property
     def body_size(self) -> int:
@@ -110,7 +115,7 @@ class Pencil:
             added_mass=self.added_mass[both],
             volume=self.volume[:, kept],
             volumes=self.volumes[:, kept],
-            potentials=self.potentials[:, kept],
+            coupling=self.coupling[:, np.flatnonzero(kept)],
         )
 
     def released(self, surfaces: Sequence[str]) -> Pencil:
@@ -146,7 +151,7 @@ class Pencil:
             added_mass=0.5 * (added + added.T),
             volume=volume[_independent(volume)],
             volumes=self.volumes @ path,
-            potentials=self.potentials @ path,
+            coupling=sp.csr_array(self.coupling @ sp.csr_array(path)),
         )
 
 
@@ -184,18 +189,18 @@ class Loads:
         self.shapes = liquid.shape_space(bodies)
         self._blocks = [self._surface_block(surface) for surface in self.surfaces]
 
-    def _surface_block(self, surface: Surface) -> tuple[Array, Array, Array]:
-        """Loads, stiffness and coordinates of the unknowns of a surface."""
+    def _surface_block(self, surface: Surface) -> tuple[sp.csr_array, Array, Indices]:
+        """Loads and stiffness of the unknowns of a surface, and their numbers among those of ψ."""
         liquid = self.liquid
         matrix = liquid.surface(surface.name)
         trace = liquid.trace(surface.name, surface.below)
         unknowns = trace.unknowns
-        load = matrix[:, unknowns].toarray()
+        load = sp.csr_array(matrix[:, unknowns])
         if surface.above is not None:
-            load -= matrix[:, trace.matched(liquid.trace(surface.name, surface.above))].toarray()
+            load = load - sp.csr_array(matrix[:, trace.matched(liquid.trace(surface.name, surface.above))])
         own = (unknowns >= liquid.first) & (unknowns < liquid.first + liquid.owned)
         restoring = np.zeros((len(unknowns),) * 2)
-        restoring[own] = load[unknowns[own] - liquid.first]
+        restoring[own] = load[unknowns[own] - liquid.first].toarray()
         liquid.comm.Allreduce(MPI.IN_PLACE, restoring)
         return load, 0.5 * surface.jump * (restoring + restoring.T), unknowns
 
@@ -208,27 +213,27 @@ class Loads:
         open_layers = np.bincount(liquid.layer_of[zeros], minlength=len(liquid.densities)).astype(np.int64)
         liquid.comm.Allreduce(MPI.IN_PLACE, open_layers)
         closed = tuple(int(layer) for layer in np.flatnonzero(open_layers == 0))
-        columns = [self._body_loads(body) for body in bodies]
-        restoring, kept_surfaces = [], []
         everywhere = np.concatenate(liquid.comm.allgather(zeros + liquid.first))
+        columns = [sp.csr_array((liquid.owned, 0)), *(sp.csr_array(self._body_loads(body)) for body in bodies)]
+        restoring, surfaces = [], []
         for surface, (load, stiffness, unknowns) in zip(self.surfaces, self._blocks, strict=True):
-            kept = ~np.isin(unknowns, everywhere)
+            kept = np.flatnonzero(~np.isin(unknowns, everywhere))
             columns.append(load[:, kept])
             restoring.append(stiffness[np.ix_(kept, kept)])
-            kept_surfaces.append((surface, int(kept.sum())))
-        coupling = np.column_stack(columns) if columns else np.empty((liquid.owned, 0))
-        volumes = np.zeros((len(closed), coupling.shape[1]))
-        for row, layer in enumerate(closed):
-            volumes[row] = coupling[liquid.layer_of == layer].sum(axis=0)
+            surfaces.append((surface, len(kept)))
+        coupling = sp.csr_array(sp.hstack(columns, format="csr"))
+        ones = np.array([liquid.layer_of == layer for layer in closed], dtype=float).reshape(len(closed), liquid.owned)
+        volumes = np.ascontiguousarray((coupling.T @ ones.T).T)
         liquid.comm.Allreduce(MPI.IN_PLACE, volumes)
-        largest = np.abs(coupling).sum(axis=0).max(initial=0.0)
-        largest = liquid.comm.allreduce(largest, op=MPI.MAX)
+        largest = liquid.comm.allreduce(abs(coupling).sum(axis=0).max(initial=0.0), op=MPI.MAX)
         volumes[np.abs(volumes) <= _NO_VOLUME * largest] = 0.0
-        coupling[held] = 0.0
-        potentials = liquid.factorized(zeros, closed).solve(coupling)
-        loaded = np.flatnonzero(coupling.any(axis=1))
-        density = np.array(liquid.densities)[liquid.layer_of[loaded]]
-        added = (density[:, None] * coupling[loaded]).T @ potentials[loaded]
+        coupling = sp.csr_array(sp.diags_array((~held).astype(float)) @ coupling)
+        operator = liquid.factorized(zeros, closed)
+        weighed = coupling.T @ sp.diags_array(np.array(liquid.densities)[liquid.layer_of])
+        added = np.zeros((coupling.shape[1],) * 2)
+        for first in range(0, len(added), _TOGETHER):
+            some = slice(first, first + _TOGETHER)
+            added[:, some] = weighed @ operator.solve(coupling[:, some].toarray())
         liquid.comm.Allreduce(MPI.IN_PLACE, added)
         stiffness, mass = _body_matrices(bodies)
         count = coupling.shape[1]
@@ -237,14 +242,15 @@ class Loads:
         return Pencil(
             liquid=liquid,
             bodies=bodies,
-            surfaces=tuple(kept_surfaces),
+            surfaces=tuple(surfaces),
             stiffness=block_diag(stiffness, *restoring) if count else np.empty((0, 0)),
             mass=whole_mass,
             added_mass=0.5 * (added + added.T),
             volume=volumes[_independent(volumes)],
             volumes=volumes,
             closed=closed,
-            potentials=potentials,
+            coupling=coupling,
+            operator=operator,
         )
 
     def _body_loads(self, body: Body) -> Array:

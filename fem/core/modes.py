@@ -135,8 +135,8 @@ def _shifted(pencil: Pencil, shift: float, count: int, zero: int) -> Modes:
             "the surfaces' matrices are not positive definite to working precision: stiffnesses and densities differ "
             "beyond what double precision resolves"
         ) from error
-    operator = solve_triangular(factor, solve_triangular(factor, mass, lower=True).T, lower=True)
-    operator = 0.5 * (operator + operator.T)
+    operator = np.tril(lapack.dsygst(mass, factor, itype=1, lower=1)[0])
+    operator += np.tril(operator, -1).T
     unstable = int(np.count_nonzero(np.diag(pencil.stiffness) < 0.0))
     inverses, vectors = _largest(operator, min(count + zero + unstable + 1, len(operator)))
     residuals = np.linalg.norm(operator @ vectors - inverses * vectors, axis=0) / inverses

@@ -9,6 +9,7 @@ from math import ceil, e, log10, pi
 
 from hydroelastic.fem.core.bodies import dry_mode_count
 from hydroelastic.modal.beam.beam_shapes import first_bending
+from hydroelastic.physics.dofs import PLACES
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.local_waves import (
     LevelPiece,
@@ -17,7 +18,6 @@ from hydroelastic.physics.local_waves import (
     moving_pieces,
     squared_frequency_of_mode,
 )
-from hydroelastic.physics.motions import PLACES
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 LOWEST_DEGREE, HIGHEST_DEGREE = 4, 10

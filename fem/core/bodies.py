@@ -25,9 +25,8 @@ from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.physics.beams import Beam
-from hydroelastic.physics.dofs import Dof, body_name
+from hydroelastic.physics.dofs import PLACES, Dof, body_name
 from hydroelastic.physics.floats import RigidFloat, dof_of_motion
-from hydroelastic.physics.motions import PLACES
 from hydroelastic.physics.symmetry import Parity, left_bodies, motion_parity, twin_of
 from hydroelastic.physics.tank import Tank
 

@@ -47,6 +47,7 @@ from hydroelastic.fem.core.liquid import Liquid
 from hydroelastic.fem.core.modes import lowest_modes
 from hydroelastic.fem.core.parts import MergedModes, merged_modes
 from hydroelastic.fem.core.pencil import Loads, Pencil, Surface
+from hydroelastic.fem.core.sampling import along_level
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
@@ -55,7 +56,7 @@ from hydroelastic.meshes.section import SectionSizes, SectionTriangles, section_
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, shapes_of_twins
-from hydroelastic.physics.tank import Tank
+from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
 
 Array = NDArray[np.float64]
 Pencils = Mapping[Parity | None, Pencil]
@@ -477,6 +478,26 @@ class SectionSolution:
         generalized mass of that part (collective)."""
         key, own = self.found.modes.origins[number]
         return self.found.modes.parts[key].potential(own)
+
+    def elevation(self, number: int, level: StillLevel, x: Array) -> Array:
+        """Elevation of an open surface or interface in a mode at dimensionless abscissas, at unit generalized mass of
+        the whole tank; NaN beside it (collective).
+
+        η = λ (ρψ below − ρψ above)/Δρ.
+        """
+        key, _ = self.found.modes.origins[number]
+        psi = self.field(number).x.array
+        name = FREE_SURFACE if level.above is None else INTERFACE
+        liquid = next(iter(self.found.modes.parts.values())).pencil.liquid
+        left = np.where(x > MIDDLE, 1.0 - x, x) if key is not None else x
+        total = np.zeros(len(x))
+        for layer, sign in ((level.below, 1.0), (level.above, -1.0)):
+            if layer is not None:
+                density = sign * self.tank.layers[layer].density
+                total += density * along_level(liquid, psi[: liquid.owned], name, layer, left)
+        if key is not None:
+            total *= np.sqrt(0.5) * np.where((x > MIDDLE) & (key == "antisymmetric"), -1.0, 1.0)
+        return np.asarray(self.found.modes.values[number] * total / level.jump)
 
 
 def solve_section(

@@ -38,8 +38,9 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-# Points of a curve at which sizes are taken, and those for its radius of curvature, of which some are kept.
-_SAMPLES: Array = np.linspace(0.0, 1.0, 65, dtype=np.float64)
+# Points of a curve at which sizes are taken, dense at its ends, where sizes may be small; and those for its radius of curvature, of which some are kept.
+_NEAR_ENDS = np.geomspace(1e-8, 0.02, 50)
+_SAMPLES: Array = np.unique(np.concatenate([np.linspace(0.0, 1.0, 65), _NEAR_ENDS, 1.0 - _NEAR_ENDS]))
 _FINE: Array = np.linspace(0.0, 1.0, 97, dtype=np.float64)
 _KEPT = slice(0, None, 6)
 _EDGES = ((1, 2), (0, 2), (0, 1))

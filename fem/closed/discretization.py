@@ -196,7 +196,7 @@ def rounding_error(degree: int, depth: float) -> float:
     It grows with the condition of A, and in thin layers, where long waves hold little energy in each cell, like
     (L/H)^{3/2}.
     """
-    return 1e-14 * (degree / 4.0) ** 3 * max(1.0, 0.1 / depth) ** 1.5
+    return 3e-14 * (degree / 4.0) ** 3 * max(1.0, 0.1 / depth) ** 1.5
 
 
 def _discretization(tank: Tank, tolerance: float, wavenumbers: list[float]) -> Discretization:

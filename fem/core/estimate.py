@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 _SAFETY = 3.0
 
 
-def remainder(finest: Array, finer: Array, coarse: Array, *, rates: tuple[float, float] = (0.1, 0.5)) -> Array:
+def remainder(finest: Array, finer: Array, coarse: Array, *, rates: tuple[float, float] = (0.04, 0.5)) -> Array:
     """Relative errors of the finest values.
 
     Args:

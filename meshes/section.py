@@ -38,7 +38,8 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-# Points of a curve at which sizes are taken, dense at its ends, where sizes may be small; and those for its radius of curvature, of which some are kept.
+# Points of a curve at which sizes are taken, dense at its ends, where sizes may be small; those for its radius of
+# curvature, of which some are kept.
 _NEAR_ENDS = np.geomspace(1e-8, 0.02, 50)
 _SAMPLES: Array = np.unique(np.concatenate([np.linspace(0.0, 1.0, 65), _NEAR_ENDS, 1.0 - _NEAR_ENDS]))
 _FINE: Array = np.linspace(0.0, 1.0, 97, dtype=np.float64)
@@ -141,8 +142,9 @@ class _SizeField:
             starts.append(np.array(point))
             ends.append(np.array(point))
             near.append(own)
-        self._starts, self._near = np.array(starts).reshape(-1, 2), np.array(near)
-        self._steps = np.array(ends).reshape(-1, 2) - self._starts
+        self._starts: Array = np.array(starts).reshape(-1, 2)
+        self._near: Array = np.array(near)
+        self._steps: Array = np.array(ends).reshape(-1, 2) - self._starts
         counts = self._near < sizes.bulk
         self._starts, self._near, self._steps = self._starts[counts], self._near[counts], self._steps[counts]
 
@@ -242,12 +244,12 @@ def _triangles(
         order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
         order[tags.astype(np.int64)] = np.arange(len(tags))
         cells = [order[mesh.getElementsByType(2, one)[1].astype(np.int64)].reshape(-1, 3) for one in surfaces]
-    chains = [order[chain + 1] for chain in chains]
+    found = [order[chain + 1] for chain in chains]
     corners = coordinates.reshape(-1, 3)[:, :2].copy()
-    for curve, chain in zip(outline.curves, chains, strict=True):
-        corners[chain[[0, -1]]] = curve.start, curve.end
+    for curve, ends in zip(outline.curves, found, strict=True):
+        corners[ends[[0, -1]]] = curve.start, curve.end
     regions = np.repeat(np.arange(len(cells)), list(map(len, cells)))
-    return corners, np.concatenate(cells), regions, chains
+    return corners, np.concatenate(cells), regions, found
 
 
 class _Bisection:
@@ -255,7 +257,7 @@ class _Bisection:
 
     def __init__(self, corners: Array, cells: Indices, regions: Indices, chains: list[Indices]) -> None:
         self.corners, self.cells, self.regions = corners, cells, regions
-        self._on_curves = {frozenset(pair) for chain in chains for pair in pairwise(chain.tolist())}
+        self._on_curves = {frozenset(pair) for chain in chains for pair in pairwise(map(int, chain))}
 
     def bisect(self, pair: tuple[int, int]) -> None:
         if frozenset(pair) in self._on_curves:
@@ -287,7 +289,7 @@ class _Bisection:
             ends = [self.cells[at, (own + turn) % 3] for turn in (0, 1, 2)]
             one, other = (self.corners[end] - self.corners[ends[0]] for end in ends[1:])
             found = np.abs(np.arctan2(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], (one * other).sum(axis=1)))
-            wide = found > np.array([angles[corner] for corner in ends[0].tolist()])
+            wide = found > np.array([angles[corner] for corner in map(int, ends[0])])
             pairs = {
                 (min(pair), max(pair)) for pair in zip(ends[1][wide].tolist(), ends[2][wide].tolist(), strict=True)
             }

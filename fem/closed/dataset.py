@@ -55,7 +55,7 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
     )
 
 
-def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str, tuple]:  # type: ignore[type-arg]
+def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str, tuple]:
     found, growing = solution.found, prefix != ""
     values = np.abs(found.modes.values[which])
     mode = f"{prefix}mode"

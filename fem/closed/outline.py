@@ -69,7 +69,9 @@ def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool = False, re
         released: whether in the limit of infinite frequency, where cells on both sides of an interface have other
             singular points.
     """
-    contours = {piece.body: size for piece, size in zip(tank.pieces, sizes, strict=True) if piece.body in tank.hulls}
+    contours: dict[int | None, float] = {
+        piece.body: size for piece, size in zip(tank.pieces, sizes, strict=True) if piece.body in tank.hulls
+    }
     builder = _Builder(
         tank=tank, sizes=sizes, contours=contours, right=MIDDLE if half else 1.0, half=half, released=released
     )

@@ -167,6 +167,7 @@ class DiscreteSection:
         ]
         loads = Loads(liquid, surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
         zero = released_surfaces(tank, released=self.released)
+        pencils: dict[Parity | None, Pencil]
         if self.half:
             counts = shapes_of_twins(tank, counts)
             planes = {parity: (*zero, SYMMETRY_PLANE) if parity == "antisymmetric" else zero for parity in PARITIES}
@@ -245,7 +246,7 @@ class SectionModes:
     section: DiscreteSection
     modes: MergedModes[Parity | None]
     errors: Array
-    judged: Array = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    judged: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     tones: tuple[ElasticTone, ...] = ()
     float_modes: tuple[FloatMode, ...] = ()
     missing: int = 0
@@ -305,7 +306,7 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
 
     found = modes.values
     liquid, geometry = section.errors_of(found, values)
-    dry = np.zeros(len(found))
+    dry: Array = np.zeros(len(found))
     if section.tank.elastic:
         fewer = (
             {
@@ -371,7 +372,10 @@ class ReleasedLimit:
 def released_limit(section: DiscreteSection) -> ReleasedLimit:
     """Solve the limit on one discretization (collective)."""
     tank = section.tank
-    errors, modes, tones, added_mass, added_mass_error = [np.empty((len(CAUSES), 0))], None, (), None, 0.0
+    errors: list[Array] = [np.empty((len(CAUSES), 0))]
+    modes: SectionModes | None = None
+    tones: tuple[ElasticTone, ...] = ()
+    added_mass, added_mass_error = None, 0.0
     if tank.elastic and tank.has_waves:
         count = _MODES_OF_A_BEAM * len(tank.elastic)
         while True:
@@ -589,7 +593,8 @@ def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) ->
     )
     added = None
     if limit is not None and limit.added_mass is not None:
-        parts, first = [np.empty(0)], 0
+        parts: list[Array] = [np.empty(0)]
+        first = 0
         for index in tank.rigid:
             motions = bodies[index].motions
             own = slice(first, first + len(motions))

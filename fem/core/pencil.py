@@ -131,7 +131,7 @@ class Pencil:
         if not follows.any():
             return self
         stays, rows = ~follows, self.volume[:, follows]
-        held = _independent(rows)
+        held = np.array(_independent(rows), dtype=np.int64)
         count = len(held)
         block = np.block(
             [[self.added_mass[np.ix_(follows, follows)], rows[held].T], [rows[held], np.zeros((count, count))]]

@@ -49,7 +49,8 @@ def along_level(liquid: Liquid, values: Array, name: str, layer: int, x: Array) 
 
 
 def _parameters(abscissa: BarycentricInterpolator, x: Array) -> Array:
-    low, high = np.zeros(len(x)), np.ones(len(x))
+    low: Array = np.zeros(len(x))
+    high: Array = np.ones(len(x))
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         below = abscissa(middle) < x

@@ -270,7 +270,7 @@ def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
 
 
 def arcs_beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
-    """Return the part left (−1) or right (1) of a mirror plane, of a contour that is its own image and meets it once."""
+    """Return the part left (−1) or right (1) of a mirror plane of a contour: its own image, it meets the plane once."""
     kept = []
     for arc in (_onto(arc, x) for arc in arcs):
         start, end = (side * (point[0] - x) for point in (arc.start, arc.end))

@@ -21,6 +21,7 @@ from hydroelastic.output.plots import (
     Sheets,
     label_axes,
     part_of_colours,
+    pixels,
     sequence_colours,
     style,
     write_gif,
@@ -30,7 +31,7 @@ from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series
 
 if TYPE_CHECKING:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
@@ -178,8 +179,8 @@ def _drawn(solution: StringSolution) -> dict[str, Any]:
 
 def draw_frames(solution: StringSolution, numbers: Sequence[int], folder: Path, options: PictureOptions) -> None:
     """Draw the string at some of its times, numbered as players of sequences expect."""
-    for place, canvas in enumerate(_frames(solution, numbers, options.scale)):
-        canvas.figure.savefig(folder / f"frame_{place:04d}.png", dpi=options.dpi)
+    for number, figure in enumerate(_frames(solution, numbers, options.scale, options.dpi)):
+        pixels(figure).save(folder / f"frame_{number:04d}.png")
 
 
 def animate_string(solution: StringSolution, path: Path, options: PictureOptions) -> None:
@@ -187,22 +188,15 @@ def animate_string(solution: StringSolution, path: Path, options: PictureOptions
     numbers = columns_of(solution, np.linspace(solution.times[0], solution.times[-1], _MOTION_FRAMES))
     if len(numbers) < 2:
         return
-    pages = []
-    for canvas in _frames(solution, numbers, options.scale, _ANIMATION_DPI):
-        canvas.draw()
-        pages.append(np.array(canvas.buffer_rgba())[:, :, :3])
+    pages = [pixels(figure) for figure in _frames(solution, numbers, options.scale, _ANIMATION_DPI)]
     write_gif(pages, path, seconds=SECONDS / FRAMES * len(pages))
 
 
-def _frames(
-    solution: StringSolution, numbers: Sequence[int], scale: float, dpi: float = 100.0
-) -> Iterator[FigureCanvasAgg]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+def _frames(solution: StringSolution, numbers: Sequence[int], scale: float, dpi: int) -> Iterator[Figure]:
     from matplotlib.figure import Figure
 
     with style():
         figure = Figure(figsize=(5.0 * scale, 6.0 * scale), dpi=dpi, layout="constrained")
-        canvas = FigureCanvasAgg(figure)
         axes = figure.subplots()
         reach = 1.05 * max(solution.largest, 1e-300)
         axes.set_xlim(-reach, reach)
@@ -218,7 +212,7 @@ def _frames(
             line.set_data(solution.displacement[:, column], solution.positions)
             end.set_data([solution.displacement[-1, column]], [solution.positions[-1]])
             title.set_text(f"t = {solution.times[column]:.4g} s")
-            yield canvas
+            yield figure
 
 
 def drawn_solution(result: StringResult) -> StringSolution:

@@ -25,13 +25,13 @@ _PATIENCE = 300
 def compiled_form(form: ufl.Form) -> fem.Form:
     """Return a form with its kernels (collective)."""
     with kernels_locked(form.ufl_domain().ufl_cargo().comm):
-        return fem.form(form, jit_options=_jit_options())
+        return fem.form(form, jit_options=jit_options())
 
 
 def compiled_expression(expression: ufl.core.expr.Expr, points: ArrayLike) -> fem.Expression:
     """Return an expression with the kernel that evaluates it (collective)."""
     with kernels_locked(extract_unique_domain(expression).ufl_cargo().comm):
-        return fem.Expression(expression, points, jit_options=_jit_options())
+        return fem.Expression(expression, points, jit_options=jit_options())
 
 
 def assembled(form: fem.Form) -> PETSc.Mat:
@@ -42,7 +42,7 @@ def assembled(form: fem.Form) -> PETSc.Mat:
 
 
 @cache
-def _jit_options() -> dict[str, Any]:
+def jit_options() -> dict[str, Any]:
     """Options of the compilation.
 
     Measured at degree 9: a Laplace matrix is assembled in 40 % of the time that plain -O2 takes. A name for the

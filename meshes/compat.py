@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from dolfinx import graph
+from dolfinx import fem, graph
 from dolfinx.mesh import GhostMode, create_cell_partitioner
+from mpi4py import MPI
 
 try:  # dolfinx >= 0.10
     from dolfinx.io import distribute_entity_data
@@ -17,8 +18,11 @@ except ImportError:
 __all__ = [
     "cell_partitioner",
     "collapsed",
+    "compiled_form",
     "coordinate_degree",
     "distribute_entity_data",
+    "form_in_cells",
+    "form_on_facets",
     "geometry_dofmap",
     "given_partition",
 ]
@@ -59,3 +63,27 @@ def collapsed(space: Any, part: int) -> tuple[Any, npt.NDArray[np.int32]]:
     """
     own, places = space.sub(part).collapse()
     return own, np.ravel(np.asarray(places, dtype=np.int32))
+
+
+def compiled_form(comm: MPI.Comm, form: Any, options: dict[str, Any]) -> Any:
+    """Compile a form on an abstract mesh (collective)."""
+    return fem.compile_form(comm, form, form_compiler_options={"scalar_type": np.float64}, jit_options=options)
+
+
+def form_on_facets(compiled: Any, spaces: list[Any], mesh: Any, number: int, facets: npt.NDArray[np.int32]) -> Any:
+    """A compiled form of exterior facets on a mesh."""
+    dim = mesh.topology.dim - 1
+    kind = fem.IntegralType.exterior_facet
+    mesh.topology.create_connectivity(dim, dim + 1)
+    mesh.topology.create_connectivity(dim + 1, dim)
+    try:
+        entities = fem.compute_integration_domains(kind, mesh.topology, facets, dim)
+    except TypeError:  # from 0.11 on
+        entities = fem.compute_integration_domains(kind, mesh.topology, facets)
+    return fem.create_form(compiled, spaces, mesh, {kind: [(number, entities)]}, {}, {})
+
+
+def form_in_cells(compiled: Any, spaces: list[Any], mesh: Any, constants: dict[Any, float]) -> Any:
+    """A compiled form of all cells on a mesh, with values of its constants."""
+    given = {constant: fem.Constant(mesh, value) for constant, value in constants.items()}
+    return fem.create_form(compiled, spaces, mesh, {}, {}, given)

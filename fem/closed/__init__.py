@@ -1,0 +1,1 @@
+"""Closed tanks: from a domain to a Dataset."""

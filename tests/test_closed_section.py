@@ -1,0 +1,62 @@
+"""Closed sections by the weak form in UFL: exact references, with errors that are told."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydroelastic as he
+from hydroelastic.fem.closed.section import SectionSolution, solve_section
+from hydroelastic.scenes.models.physical import physical_tank
+
+CASES = {
+    case["name"]: case
+    for case in json.loads((Path(__file__).parent / "reference" / "aquarium.json").read_text(encoding="utf-8"))["cases"]
+}
+
+
+def solved(name: str, tolerance: float) -> SectionSolution:
+    """The solution of a case of the references."""
+    given = CASES[name]["inputs"]
+    beam = {
+        "kind": "beam",
+        "start": given["x1"],
+        "length": given["l"],
+        "flexural_rigidity": given["EI"],
+        "mass_per_length": given["m"],
+        "hydrostatic": bool(given["s"]),
+        "ends": given.get("ends", "free"),
+    }
+    scene = he.TankScene(
+        tank={"length": given["L"], "gravity": given["g"]},
+        liquid=[{"density": given["rho"], "depth": given["H"]}],
+        body=[beam] if given["l"] else [],
+    )
+    return solve_section(physical_tank(scene), tolerance=tolerance, modes=len(CASES[name]["omega"]))
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("name", ["base_s0", "offcentre_s0", "wide_0.9_s1", "full_free_s1"])
+def test_modes_are_those_of_the_reference_within_their_estimates(name: str, tolerance: float) -> None:
+    solution = solved(name, tolerance)
+    data, exact = solution.dataset, np.array(CASES[name]["omega"])
+    # The references have eleven certain digits at least, so a smaller error is not known.
+    error = np.abs(data.omega.values[: len(exact)] / exact - 1.0)
+    estimate = data.relative_error.values[: len(exact)]
+    assert np.all(estimate <= tolerance)
+    # The sum of the causes, each with its safety; rule of the project: never below a third of the true error.
+    assert np.all(error <= 3.0 * estimate + 1e-11)
+    assert data.attrs["counted"] == 1
+    assert data.attrs["zero_modes"] == (1 if name.endswith("s0") else 0)
+
+
+def test_tones_of_the_base_tank() -> None:
+    data, exact = solved("base_s0", 1e-8).dataset, CASES["base_s0"]
+    tone = float(data.first_elastic_omega[0])
+    assert tone == pytest.approx(exact["elastic1"]["omega"], rel=1e-8)
+    released = float(data.first_elastic_pressure_release_omega[0])
+    assert released == pytest.approx(exact["psi0"]["elastic_omega"], rel=1e-8)
+    # An added mass from ω has twice the relative error of ω, times (m + m_a)/m_a < 1.2.
+    added = float(data.first_elastic_added_mass_per_length[0])
+    assert added == pytest.approx(exact["elastic1"]["added_mass_hs"], rel=3e-8)

@@ -459,7 +459,6 @@ class Scene:
         field, height = view.field, view.ceiling - view.bottom
         size = width, max(round(width * height / field.length), 2)
         points = np.column_stack([field.points[:, 0], view.drawn(field.points[:, 1]), np.zeros(len(field.points))])
-        self.extent = (field.start, field.start + field.length, view.bottom, view.ceiling)
         self.mesh = pyvista.PolyData.from_regular_faces(points, field.triangles)
         self._plotter = plotter(size)
         # Edges are smooth as they are.

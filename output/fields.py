@@ -220,7 +220,7 @@ def _overview(sheets: Sheets, views: Sequence[View]) -> tuple[Figure, list[Axes]
     if any(view.cut for view in views):
         notes.append(f"only the {'part around the interface' if two else 'upper part of the liquid'} shown")
     height = 1.2 + rows * row
-    titles = [fill(field.title, 42) for field in fields]
+    titles = [fill(field.title.replace(" = ", "\u00a0=\u00a0"), 42) for field in fields]
     size = min(13.7, 72.0 * panel / (0.58 * max(len(line) for title in titles for line in title.split("\n"))))
     # What reads pictures may refuse large ones.
     width = max(min(sheets.options.width, int(10_000 * PAGE / height)), 400)

@@ -94,6 +94,7 @@ class DiscreteSection:
             released: whether in the limit of infinite frequency.
         """
         self.comm, self.tank, self.discretization, self.half, self.released = comm, tank, discretization, half, released
+        self._liquids: dict[int, Liquid] = {}
         self._pencils: dict[int, Pencils] = {}
 
     def refined(self, discretization: Discretization) -> DiscreteSection:
@@ -103,6 +104,7 @@ class DiscreteSection:
             vars(other).update(
                 {name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)}
             )
+            other._liquids = self._liquids
             if discretization.dry_modes == self.discretization.dry_modes:
                 other._pencils = self._pencils
         return other
@@ -149,6 +151,15 @@ class DiscreteSection:
         degree = max([own.geometry_degree if self.is_curved else 1, *powers.values()])
         return self._triangles.noded(powers, degree)
 
+    def liquid(self, degree: int) -> Liquid:
+        """ψ of a degree (collective)."""
+        if degree not in self._liquids:
+            # A and all that is made of it are linear in the densities: these contain the factor of the geometry.
+            tank, measure = self.tank, self.tank.geometry.measure
+            densities = [measure * layer.density for layer in tank.layers]
+            self._liquids[degree] = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
+        return self._liquids[degree]
+
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
         if degree not in self._pencils:
@@ -157,15 +168,12 @@ class DiscreteSection:
 
     def _made(self, degree: int) -> Pencils:
         tank, counts, measure = self.tank, self.discretization.dry_modes, self.tank.geometry.measure
-        # A and all that is made of the liquid are linear in the densities: these contain the factor of the geometry.
-        densities = [measure * layer.density for layer in tank.layers]
-        liquid = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
         surfaces = [
             Surface(FREE_SURFACE if level.above is None else INTERFACE, level.below, level.above, measure * level.jump)
             for level in tank.levels
             if level.moves and not (self.released and level.above is None)
         ]
-        loads = Loads(liquid, surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
+        loads = Loads(self.liquid(degree), surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
         zero = released_surfaces(tank, released=self.released)
         pencils: dict[Parity | None, Pencil]
         if self.half:
@@ -195,16 +203,23 @@ class DiscreteSection:
         vars(other).update({name: vars(self)[name] for name in ("_triangles", "outline") if name in vars(self)})
         return other
 
-    def errors_of(self, finest: Array, values: Callable[[Pencils], Array]) -> tuple[Array, Array]:
-        """Relative errors of some values by the liquid and by the geometry, from values of neighbours (collective)."""
+    def liquid_energies(self, vectors: Mapping[Parity | None, Array]) -> dict[Parity | None, Array]:
+        """ζᵀM_aζ of vectors of each part that keep the volumes, with ψ of this degree and of the two below, shape (3,
+        vectors) (collective)."""
         degree = self.discretization.degree
-        liquid = remainder(finest, *(values(self.pencils(degree - less)) for less in (1, 2)))
-        geometry = np.zeros(len(finest))
-        if self.is_curved:
-            low = min(degree, _DEGREE_OF_GEOMETRY)
-            here, there = values(self.pencils(low)), values(self.other_geometry().pencils(low))
-            geometry = np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here))
-        return liquid, geometry
+        pencils, coarser = self.pencils(degree), (None, self.liquid(degree - 1), self.liquid(degree - 2))
+        return {
+            key: np.array([pencils[key].added_energies(own, liquid) for liquid in coarser])
+            for key, own in vectors.items()
+        }
+
+    def geometry_errors(self, values: Callable[[Pencils], Array], count: int) -> Array:
+        """Relative differences of some values, between cells of two degrees of the geometry (collective)."""
+        if not self.is_curved:
+            return np.zeros(count)
+        low = min(self.discretization.degree, _DEGREE_OF_GEOMETRY)
+        here, there = values(self.pencils(low)), values(self.other_geometry().pencils(low))
+        return np.asarray(np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here)))
 
     def rounding(self, values: Array) -> Array:
         """Relative rounding of λ."""
@@ -305,7 +320,9 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
         return modes.of_parts(found)
 
     found = modes.values
-    liquid, geometry = section.errors_of(found, values)
+    energies = section.liquid_energies({key: part.vectors for key, part in modes.parts.items()})
+    liquid = modes.of_parts({key: remainder(*(part.body_energies + energies[key])) for key, part in modes.parts.items()})
+    geometry = section.geometry_errors(values, len(found))
     dry: Array = np.zeros(len(found))
     if section.tank.elastic:
         fewer = (
@@ -409,21 +426,23 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
     tank, bodies = section.tank, section.bodies
     of_floats = np.repeat([index in tank.rigid for index in range(len(bodies))], [body.size for body in bodies])
 
-    def whole(pencils: Pencils) -> Array:
-        matrix = np.zeros((of_floats.sum(),) * 2)
-        for key, pencil in pencils.items():
-            path = section.extensions[key][of_floats]
-            if key is not None:
-                # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half
-                # has the mean, or the difference.
-                path = np.sqrt(2.0) * np.sign(path) / np.maximum(np.count_nonzero(path, axis=0), 1)
-            size = pencil.body_size
-            matrix += path @ pencil.added_mass[:size, :size] @ path.T
-        return matrix
+    def motions(key: Parity | None, pencil: Pencil) -> Array:
+        path = section.extensions[key][of_floats]
+        if key is not None:
+            # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half has the
+            # mean, or the difference.
+            path = np.sqrt(2.0) * np.sign(path) / np.maximum(np.count_nonzero(path, axis=0), 1)
+        return np.hstack([path, np.zeros((len(path), pencil.size - pencil.body_size))]).T
 
-    matrix = whole(section.pencils(section.discretization.degree))
+    def whole(pencils: Pencils) -> Array:
+        moved = {key: motions(key, pencil) for key, pencil in pencils.items()}
+        return np.asarray(sum(moved[key].T @ pencil.added_mass @ moved[key] for key, pencil in pencils.items()))
+
+    pencils = section.pencils(section.discretization.degree)
+    matrix = whole(pencils)
     diagonal = np.diag(matrix).copy()
-    liquid, geometry = section.errors_of(diagonal, lambda pencils: np.diag(whole(pencils)).copy())
+    liquid = remainder(*sum(section.liquid_energies({key: motions(key, own) for key, own in pencils.items()}).values()))
+    geometry = section.geometry_errors(lambda pencils: np.diag(whole(pencils)).copy(), len(diagonal))
     scales = np.array(
         [
             tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)

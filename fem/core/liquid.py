@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
@@ -59,6 +60,18 @@ class Trace:
         return other.facets.ravel()[np.sort(first)]
 
 
+Zero = tuple[str, ...]
+"""Names of facets with ψ = 0."""
+
+
+class Conditions(NamedTuple):
+    """Own unknowns with ψ = 0, layers that these leave closed, and own unknowns that A⁺ sets to zero."""
+
+    zeros: Indices
+    closed: tuple[int, ...]
+    fixed: Indices
+
+
 class Liquid:
     """ψ of one degree on a mesh, with the matrices of its forms."""
 
@@ -86,6 +99,11 @@ class Liquid:
             degree,
         )
         self.space = fem.functionspace(domain, ("Lagrange", degree))
+        self._conditions: dict[Zero, Conditions] = {}
+        self._interpolations: dict[int, PETSc.Mat] = {}
+        self._matrix: PETSc.Mat | None = None
+        self._solver: PETSc.KSP | None = None
+        self._factorized: Zero | None = None
         constants = {} if self.forms.transverse is None else {self.forms.transverse: geometry.transverse}
         self.laplace = _assembled(form_in_cells(self.forms.laplace, [self.space] * 2, domain, constants))
         dofmap = self.space.dofmap
@@ -115,36 +133,75 @@ class Liquid:
         dofs = fem.locate_dofs_topological(self.space, self.mesh.mesh.topology.dim - 1, facets)
         return np.asarray(dofs[dofs < self.owned], dtype=np.int64)
 
-    def surface(self, name: str) -> sp.csr_matrix:
-        """∫ηq over the facets of a name, rows of this process (collective)."""
+    def surface(self, name: str) -> PETSc.Mat:
+        """∫ηq over the facets of a name (collective)."""
         form = form_on_facets(self.forms.surface, [self.space] * 2, self.mesh.mesh, MARKED, self.mesh.facets(name))
-        return _rows(_assembled(form))
+        return _assembled(form)
 
     def trace(self, name: str, layer: int) -> Trace:
         """The unknowns on the facets of a name in a layer (collective)."""
         dim = self.mesh.mesh.topology.dim
-        closure = self.space.element.basix_element.entity_closure_dofs[dim - 1]
         cells, sides = _cells_at(self.mesh.mesh, self.mesh.facets(name))
-        rows, points = [], []
-        for cell, side in zip(cells, sides, strict=True):
-            if cell < len(self.layer_of_cell) and self.layer_of_cell[cell] == layer:
-                dofs = self.space.dofmap.cell_dofs(cell)[closure[side]]
-                dofs = dofs[np.lexsort(np.round(self.points[dofs], 12).T[::-1])]
-                rows.append(self.space.dofmap.index_map.local_to_global(dofs.astype(np.int32)))
-                points.append(self.points[dofs])
-        width = len(closure[0])
-        own = np.array(rows, dtype=np.int64).reshape(-1, width), np.array(points).reshape(-1, width, dim)
-        facets, places = (np.concatenate(parts) for parts in zip(*self.comm.allgather(own), strict=True))
-        order = np.lexsort(np.round(places.mean(axis=1), 12).T[::-1])
-        return Trace(facets=facets[order], points=places[order])
+        here = (cells < len(self.layer_of_cell)) & (self.layer_of_cell[np.minimum(cells, len(self.layer_of_cell) - 1)] == layer)
+        dofs = _on_sides(self.space, cells[here], sides[here])
+        points = self.points[dofs]
+        order = np.lexsort(np.round(points, 12).transpose(2, 0, 1)[::-1])
+        dofs, points = np.take_along_axis(dofs, order, axis=1), np.take_along_axis(points, order[..., None], axis=1)
+        numbers = self.space.dofmap.index_map.local_to_global(dofs.ravel().astype(np.int32)).reshape(dofs.shape)
+        facets, points = (
+            np.concatenate(parts) for parts in zip(*self.comm.allgather((numbers, points.reshape(*dofs.shape, dim))), strict=True)
+        )
+        order = np.lexsort(np.round(points.mean(axis=1), 12).T[::-1])
+        return Trace(facets=facets[order], points=points[order])
 
-    def shape_space(self, names: Sequence[str]) -> ShapeSpace:
-        """The displacements of bodies with wetted facets of some names (collective)."""
-        return ShapeSpace(self, names)
+    def conditions(self, zero: Zero) -> Conditions:
+        """The conditions ψ = 0 on the facets of some names (collective)."""
+        if zero not in self._conditions:
+            zeros = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(self.boundary, zero)]))
+            is_open = np.bincount(self.layer_of[zeros], minlength=len(self.densities)).astype(np.int64)
+            self.comm.Allreduce(MPI.IN_PLACE, is_open)
+            closed, fixed = tuple(map(int, np.flatnonzero(is_open == 0))), [zeros]
+            for layer in closed:
+                own = np.flatnonzero(self.layer_of == layer)[:1]
+                first = self.comm.allreduce(int(own[0]) + self.first if len(own) else self.size, op=MPI.MIN)
+                fixed.append(own[own + self.first == first])
+            self._conditions[zero] = Conditions(zeros, closed, np.concatenate(fixed))
+        return self._conditions[zero]
 
-    def factorized(self, zero: Indices, closed: Sequence[int]) -> Factorized:
-        """A⁺ with ψ = 0 at own unknowns, and some layers closed (collective)."""
-        return Factorized(self, zero, closed)
+    def solve(self, loads: Array, zero: Zero) -> Array:
+        """A⁺: ψ of loads, both on the unknowns of this process, shape (unknowns, loads) (collective).
+
+        The factors are those of the last conditions; others take their symbolic factorization.
+        """
+        if not loads.shape[1]:
+            return loads.copy()
+        fixed = self.conditions(zero).fixed
+        if self._factorized != zero:
+            if self._matrix is None:
+                self._matrix = self.laplace.copy()
+            else:
+                self.laplace.copy(self._matrix, PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
+            self._matrix.zeroRowsColumns((fixed + self.first).astype(PETSc.IntType), 1.0)
+            self._factorized, self._solver = None, direct_solver(self._matrix, self._solver)
+            self._factorized = zero
+        right = self._dense(loads, copy=True)
+        right.getDenseArray()[fixed] = 0.0
+        answer = self._dense(np.empty(loads.shape))
+        self._solver.matSolve(right, answer)
+        return np.array(answer.getDenseArray())
+
+    def restricted(self, finer: Liquid, loads: Array) -> Array:
+        """Loads on the unknowns of a liquid of a higher degree as loads on these, shape (unknowns, loads) (collective)."""
+        if finer.degree not in self._interpolations:
+            matrix = fem_petsc.interpolation_matrix(self.space, finer.space)
+            matrix.assemble()
+            self._interpolations[finer.degree] = matrix
+        found = self._interpolations[finer.degree].transposeMatMult(finer._dense(loads))
+        return np.array(found.getDenseArray())
+
+    def _dense(self, array: Array, *, copy: bool = False) -> PETSc.Mat:
+        size = ((self.owned, self.size), (None, array.shape[1]))
+        return PETSc.Mat().createDense(size, array=np.array(array, order="F", copy=copy or None), comm=self.comm)
 
     def function(self, values: Array, name: str = "psi") -> fem.Function:
         """A function of ψ from the values of the unknowns of this process."""
@@ -176,21 +233,14 @@ class ShapeSpace:
         form = form_on_facets(liquid.forms.normal_load, [liquid.space, space], domain, MARKED, facets)
         self._matrix = _rows(_assembled(form))
         coordinates = space.tabulate_dof_coordinates()[:, : self._dim]
-        closure = space.element.basix_element.entity_closure_dofs[topology.dim - 1]
         for name in present:
             cells, local = _cells_at(domain, liquid.mesh.facets(name))
-            dofs = [space.dofmap.cell_dofs(cell)[closure[side]] for cell, side in zip(cells, local, strict=True)]
-            middles = compute_midpoints(domain, topology.dim, cells)[:, 0]
-            sides = [
-                np.sign(x - coordinates[own, 0].mean()) * np.ones(len(own))
-                for x, own in zip(middles, dofs, strict=True)
-            ]
-            own, first = np.unique(np.concatenate([np.empty(0, dtype=np.int32), *dofs]), return_index=True)
-            found = (
-                space.dofmap.index_map.local_to_global(own.astype(np.int32)),
-                coordinates[own].reshape(-1, self._dim),
-                np.concatenate([np.empty(0), *sides])[first],
-            )
+            dofs = _on_sides(space, cells, local)
+            middles = compute_midpoints(domain, topology.dim, cells)[:, :1]
+            sides = np.sign(middles - coordinates[dofs, 0].mean(axis=1, keepdims=True)) * np.ones(dofs.shape)
+            own, first = np.unique(dofs, return_index=True)
+            numbers = space.dofmap.index_map.local_to_global(own.astype(np.int32))
+            found = numbers, coordinates[own].reshape(-1, self._dim), sides.ravel()[first]
             # Also the ghosts: of a facet on the boundary of a process another may own the unknowns.
             numbers, points, of_sides = (
                 np.concatenate(parts) for parts in zip(*liquid.comm.allgather(found), strict=True)
@@ -201,37 +251,9 @@ class ShapeSpace:
 
     def load(self, name: str, displacements: Array) -> Array:
         """Loads, rows of this process, of displacements at the points of a name, shape (shapes, dim, points)."""
-        values = displacements.transpose(2, 1, 0).reshape(len(self._columns[name]), -1)
-        return np.asarray(self._matrix[:, self._columns[name]] @ values)
-
-
-class Factorized:
-    """A⁺ of a `Liquid` for one set of conditions ψ = 0."""
-
-    def __init__(self, liquid: Liquid, zero: Indices, closed: Sequence[int]) -> None:
-        self.liquid, self.closed = liquid, tuple(closed)
-        fixed = [zero]
-        for layer in closed:
-            own = np.flatnonzero(liquid.layer_of == layer)[:1]
-            first = liquid.comm.allreduce(int(own[0]) + liquid.first if len(own) else liquid.size, op=MPI.MIN)
-            fixed.append(own[own + liquid.first == first])
-        self._fixed = np.concatenate(fixed).astype(np.int64)
-        matrix = liquid.laplace.copy()
-        matrix.zeroRowsColumns((self._fixed + liquid.first).astype(PETSc.IntType), 1.0)
-        self._solver = direct_solver(matrix)
-
-    def solve(self, loads: Array) -> Array:
-        """ψ of loads, both on the unknowns of this process, shape (unknowns, loads) (collective)."""
-        if not loads.shape[1]:
-            return loads.copy()
-        right = loads.copy(order="F")
-        right[self._fixed] = 0.0
-        size = ((self.liquid.owned, self.liquid.size), (None, loads.shape[1]))
-        comm = self.liquid.comm
-        answer = PETSc.Mat().createDense(size, comm=comm)
-        answer.setUp()
-        self._solver.matSolve(PETSc.Mat().createDense(size, array=right, comm=comm), answer)
-        return np.array(answer.getDenseArray())
+        values = np.zeros((self._matrix.shape[1], len(displacements)))
+        values[self._columns[name]] = displacements.transpose(2, 1, 0).reshape(len(self._columns[name]), -1)
+        return np.asarray(self._matrix @ values)
 
 
 def _cells_at(mesh: Mesh, facets: NDArray[np.int32]) -> tuple[NDArray[np.int32], Indices]:
@@ -244,6 +266,12 @@ def _cells_at(mesh: Mesh, facets: NDArray[np.int32]) -> tuple[NDArray[np.int32],
     cells = cells_of.array[cells_of.offsets[facets]]
     table = facets_of.array.reshape(-1, dim + 1)
     return cells, np.argmax(table[cells] == facets[:, None], axis=1)
+
+
+def _on_sides(space: fem.FunctionSpace, cells: NDArray[np.int32], sides: Indices) -> Indices:
+    """The unknowns on sides of cells, shape (cells, unknowns of a side)."""
+    closure = np.array(space.element.basix_element.entity_closure_dofs[space.mesh.topology.dim - 1])
+    return np.asarray(space.dofmap.list[cells[:, None], closure[sides]], dtype=np.int64)
 
 
 def _assembled(form: fem.Form) -> PETSc.Mat:

@@ -21,7 +21,7 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 from petsc4py import PETSc
-from scipy.linalg import cholesky, lapack, qr, solve_triangular
+from scipy.linalg import cholesky, eigh, lapack, qr, solve_triangular
 from slepc4py import SLEPc
 
 from hydroelastic.fem.core.pencil import Pencil
@@ -65,6 +65,11 @@ class Modes:
         """Body part of ζ, shape (modes, body unknowns)."""
         return self.vectors[: self.pencil.body_size].T
 
+    @property
+    def body_energies(self) -> Array:
+        """ζᵀMζ, the bodies' part of the kinetic energy, shape (modes,)."""
+        return np.asarray(((self.pencil.mass @ self.vectors) * self.vectors).sum(axis=0))
+
     @cached_property
     def energies(self) -> Array:
         """Shares of each mode in the potential energy: bodies' unknowns, then surfaces; shape (modes, shares)."""
@@ -78,12 +83,12 @@ class Modes:
         """ψ of a mode, with the constants of its closed layers (collective)."""
         pencil, liquid = self.pencil, self.pencil.liquid
         zeta, value = self.vectors[:, number], self.values[number]
-        psi = pencil.operator.solve((pencil.coupling @ zeta)[:, None])[:, 0]
+        psi = pencil.potentials(zeta[:, None])[:, 0]
         # K ζ − λ T ζ = λ Σ ρ c V: the constant c of each closed layer.
         rest = pencil.stiffness @ zeta - value * (pencil.kinetic @ zeta)
         scale = 1.0 / np.sqrt(np.abs(np.diag(pencil.stiffness)) + np.diag(pencil.kinetic))
         constants = np.linalg.lstsq((pencil.volumes * scale).T, scale * rest / value, rcond=1e-9)[0]
-        for layer, constant in zip(pencil.closed, constants, strict=True):
+        for layer, constant in zip(liquid.conditions(pencil.zero).closed, constants, strict=True):
             psi[liquid.layer_of == layer] += constant / liquid.densities[layer]
         return liquid.function(psi)
 
@@ -187,11 +192,14 @@ class _Volumes:
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:
     """The largest eigenvalues of a symmetric matrix, descending, and their vectors."""
+    size = len(operator)
+    if size <= max(_FEW, 3 * count):
+        values, vectors = eigh(operator, subset_by_index=(size - count, size - 1), driver="evr", check_finite=False)
+        return values[::-1], vectors[:, ::-1]
     solver = SLEPc.EPS().create(PETSc.COMM_SELF)
     matrix = PETSc.Mat().createDense(operator.shape, array=np.asfortranarray(operator), comm=PETSc.COMM_SELF)
     solver.setOperators(matrix)
     solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
-    solver.setType(SLEPc.EPS.Type.LAPACK if len(operator) <= max(_FEW, 3 * count) else SLEPc.EPS.Type.KRYLOVSCHUR)
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setDimensions(count)
     solver.setTolerances(1e-14)

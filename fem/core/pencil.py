@@ -6,7 +6,7 @@ C has a column for each shape of each body, ∫vᵢ·n q, and for each unknown o
 below and −∫ηⱼ q in the one above. K holds the stiffness of the bodies and Δρ g ∫ηᵢηⱼ, M the mass of the bodies. V is
 the volume that each unknown takes from each closed layer; the constant of ψ there is its Lagrange multiplier.
 
-K, M + M_a and V are small and dense, and the same on every process; C is sparse, with the rows of each.
+K, M + M_a and V are small and dense, and the same on every process; C has the rows of each.
 """
 
 from __future__ import annotations
@@ -17,13 +17,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse as sp
 from mpi4py import MPI
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.core.bodies import Body
-from hydroelastic.fem.core.liquid import Factorized, Indices, Liquid
+from hydroelastic.fem.core.liquid import Indices, Liquid, ShapeSpace, Zero
 
 Array = NDArray[np.float64]
 
@@ -57,9 +56,9 @@ class Pencil:
         added_mass: M_a, shape (n, n).
         volume: V, shape (constraints, n), independent rows.
         volumes: of all closed layers, as rows.
-        closed: these layers.
-        coupling: C, rows of this process, shape (unknowns of ψ, n).
-        operator: A⁺.
+        zero: names of facets with ψ = 0.
+        rows: unknowns of ψ of this process on what moves.
+        coupling: C on these, shape (rows, n); zero elsewhere.
     """
 
     liquid: Liquid
@@ -70,9 +69,9 @@ class Pencil:
     added_mass: Array
     volume: Array
     volumes: Array
-    closed: tuple[int, ...]
-    coupling: sp.csr_array
-    operator: Factorized
+    zero: Zero
+    rows: Indices
+    coupling: Array
 
     @property
     def body_size(self) -> int:
@@ -95,6 +94,24 @@ class Pencil:
         free = np.flatnonzero(~self.stiffness.any(axis=0))
         return len(free) - _rank(self.volume[:, free])
 
+    def potentials(self, vectors: Array) -> Array:
+        """A⁺C ζ on the unknowns of this process, shape (unknowns, vectors) (collective)."""
+        return self.liquid.solve(_spread(self.coupling @ vectors, self.rows, self.liquid), self.zero)
+
+    def added_energies(self, vectors: Array, liquid: Liquid | None = None) -> Array:
+        """ζᵀM_aζ, or what it is with ψ of a lower degree, of vectors that keep the volumes (collective).
+
+        ψ in a subspace, of loads that are the same on it, has the energy of the discretization of that degree: η follows
+        the trace of ψ. So λ changes by the same part as ζᵀ(M + M_a)ζ, up to squares.
+        """
+        if liquid is None:
+            return np.einsum("ik,ij,jk->k", vectors, self.added_mass, vectors, optimize=True)
+        loads = liquid.restricted(self.liquid, _spread(self.coupling @ vectors, self.rows, self.liquid))
+        weights = np.array(liquid.densities)[liquid.layer_of]
+        energies = np.einsum("nk,nk,n->k", loads, liquid.solve(loads, self.zero), weights)
+        liquid.comm.Allreduce(MPI.IN_PLACE, energies)
+        return energies
+
     def with_bodies(self, bodies: tuple[Body, ...]) -> Pencil:
         """Other stiffnesses and masses of the same shapes."""
         size = self.body_size
@@ -115,7 +132,7 @@ class Pencil:
             added_mass=self.added_mass[both],
             volume=self.volume[:, kept],
             volumes=self.volumes[:, kept],
-            coupling=self.coupling[:, np.flatnonzero(kept)],
+            coupling=self.coupling[:, kept],
         )
 
     def released(self, surfaces: Sequence[str]) -> Pencil:
@@ -151,7 +168,7 @@ class Pencil:
             added_mass=0.5 * (added + added.T),
             volume=volume[_independent(volume)],
             volumes=self.volumes @ path,
-            coupling=sp.csr_array(self.coupling @ sp.csr_array(path)),
+            coupling=self.coupling @ path,
         )
 
 
@@ -186,57 +203,63 @@ class Loads:
         """
         self.liquid = liquid
         self.surfaces = tuple(surface for surface in surfaces if liquid.has(surface.name))
-        self.shapes = liquid.shape_space(bodies)
+        self.shapes = ShapeSpace(liquid, bodies)
+        moving = [*(surface.name for surface in self.surfaces), *self.shapes.points]
+        self._rows = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(liquid.boundary, moving)]))
         self._blocks = [self._surface_block(surface) for surface in self.surfaces]
 
-    def _surface_block(self, surface: Surface) -> tuple[sp.csr_array, Array, Indices]:
+    def _surface_block(self, surface: Surface) -> tuple[Array, Array, Indices]:
         """Loads and stiffness of the unknowns of a surface, and their numbers among those of ψ."""
         liquid = self.liquid
-        matrix = liquid.surface(surface.name)
         trace = liquid.trace(surface.name, surface.below)
         unknowns = trace.unknowns
-        load = sp.csr_array(matrix[:, unknowns])
-        if surface.above is not None:
-            load = load - sp.csr_array(matrix[:, trace.matched(liquid.trace(surface.name, surface.above))])
+        starts, columns, values = liquid.surface(surface.name).getValuesCSR()
+        rows = np.repeat(np.arange(liquid.owned), np.diff(starts))
+
+        def block(of_rows: Indices, of_columns: Indices) -> Array:
+            places = [np.full(size, -1) for size in (liquid.owned, liquid.size)]
+            for place, numbers in zip(places, (of_rows, of_columns), strict=True):
+                place[numbers] = np.arange(len(numbers))
+            row, column = places[0][rows], places[1][columns]
+            both = (row >= 0) & (column >= 0)
+            found = np.zeros((len(of_rows), len(of_columns)))
+            found[row[both], column[both]] = values[both]
+            return found
+
+        load = block(self._rows, unknowns)
         own = (unknowns >= liquid.first) & (unknowns < liquid.first + liquid.owned)
         restoring = np.zeros((len(unknowns),) * 2)
-        restoring[own] = load[unknowns[own] - liquid.first].toarray()
+        restoring[own] = load[np.searchsorted(self._rows, unknowns[own] - liquid.first)]
         liquid.comm.Allreduce(MPI.IN_PLACE, restoring)
+        if surface.above is not None:
+            load = load - block(self._rows, trace.matched(liquid.trace(surface.name, surface.above)))
         return load, 0.5 * surface.jump * (restoring + restoring.T), unknowns
 
-    def pencil(self, bodies: tuple[Body, ...], zero: Sequence[str]) -> Pencil:
+    def pencil(self, bodies: tuple[Body, ...], zero: Zero) -> Pencil:
         """The pencil of a part with ψ = 0 on the facets of some names (collective)."""
-        liquid = self.liquid
-        zeros = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(liquid.boundary, zero)]))
-        held = np.zeros(liquid.owned, dtype=bool)
-        held[zeros] = True
-        open_layers = np.bincount(liquid.layer_of[zeros], minlength=len(liquid.densities)).astype(np.int64)
-        liquid.comm.Allreduce(MPI.IN_PLACE, open_layers)
-        closed = tuple(int(layer) for layer in np.flatnonzero(open_layers == 0))
+        liquid, rows = self.liquid, self._rows
+        zeros, closed, _ = liquid.conditions(zero)
         everywhere = np.concatenate(liquid.comm.allgather(zeros + liquid.first))
-        columns = [sp.csr_array((liquid.owned, 0)), *(sp.csr_array(self._body_loads(body)) for body in bodies)]
-        restoring, surfaces = [], []
+        columns, restoring, surfaces = [self._body_loads(body) for body in bodies], [], []
         for surface, (load, stiffness, unknowns) in zip(self.surfaces, self._blocks, strict=True):
             kept = np.flatnonzero(~np.isin(unknowns, everywhere))
             columns.append(load[:, kept])
             restoring.append(stiffness[np.ix_(kept, kept)])
             surfaces.append((surface, len(kept)))
-        coupling = sp.csr_array(sp.hstack(columns, format="csr"))
-        ones = np.array([liquid.layer_of == layer for layer in closed], dtype=float).reshape(len(closed), liquid.owned)
-        volumes = np.ascontiguousarray((coupling.T @ ones.T).T)
+        coupling = np.hstack([np.empty((len(rows), 0)), *columns])
+        volumes = (liquid.layer_of[rows] == np.array(closed)[:, None]).astype(float) @ coupling
         liquid.comm.Allreduce(MPI.IN_PLACE, volumes)
-        largest = liquid.comm.allreduce(abs(coupling).sum(axis=0).max(initial=0.0), op=MPI.MAX)
+        largest = liquid.comm.allreduce(np.abs(coupling).sum(axis=0).max(initial=0.0), op=MPI.MAX)
         volumes[np.abs(volumes) <= _NO_VOLUME * largest] = 0.0
-        coupling = sp.csr_array(sp.diags_array((~held).astype(float)) @ coupling)
-        operator = liquid.factorized(zeros, closed)
-        weighed = coupling.T @ sp.diags_array(np.array(liquid.densities)[liquid.layer_of])
-        added = np.zeros((coupling.shape[1],) * 2)
-        for first in range(0, len(added), _TOGETHER):
+        coupling[np.isin(rows, zeros)] = 0.0
+        weighed = (coupling * np.array(liquid.densities)[liquid.layer_of[rows], None]).T
+        count = coupling.shape[1]
+        added = np.zeros((count, count))
+        for first in range(0, count, _TOGETHER):
             some = slice(first, first + _TOGETHER)
-            added[:, some] = weighed @ operator.solve(coupling[:, some].toarray())
+            added[:, some] = weighed @ liquid.solve(_spread(coupling[:, some], rows, liquid), zero)[rows]
         liquid.comm.Allreduce(MPI.IN_PLACE, added)
         stiffness, mass = _body_matrices(bodies)
-        count = coupling.shape[1]
         whole_mass = np.zeros((count, count))
         whole_mass[: len(mass), : len(mass)] = mass
         return Pencil(
@@ -248,14 +271,21 @@ class Loads:
             added_mass=0.5 * (added + added.T),
             volume=volumes[_independent(volumes)],
             volumes=volumes,
-            closed=closed,
+            zero=zero,
+            rows=rows,
             coupling=coupling,
-            operator=operator,
         )
 
     def _body_loads(self, body: Body) -> Array:
         points, sides = self.shapes.points[body.name]
-        return self.shapes.load(body.name, body.shapes(points, sides if body.is_slit else np.zeros_like(sides)))
+        shapes = body.shapes(points, sides if body.is_slit else np.zeros_like(sides))
+        return self.shapes.load(body.name, shapes)[self._rows]
+
+
+def _spread(loads: Array, rows: Indices, liquid: Liquid) -> Array:
+    found = np.zeros((liquid.owned, loads.shape[1]), order="F")
+    found[rows] = loads
+    return found
 
 
 def _independent(rows: Array) -> list[int]:

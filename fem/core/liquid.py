@@ -17,10 +17,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import basix
 import numpy as np
 import scipy.sparse as sp
 from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
+from dolfinx.la import InsertMode
 from dolfinx.mesh import Mesh, compute_midpoints
 from mpi4py import MPI
 from numpy.typing import NDArray
@@ -100,7 +102,7 @@ class Liquid:
         )
         self.space = fem.functionspace(domain, ("Lagrange", degree))
         self._conditions: dict[Zero, Conditions] = {}
-        self._interpolations: dict[int, PETSc.Mat] = {}
+        self._restrictions: dict[int, sp.csc_array] = {}
         self._matrix: PETSc.Mat | None = None
         self._solver: PETSc.KSP | None = None
         self._factorized: Zero | None = None
@@ -190,14 +192,26 @@ class Liquid:
         self._solver.matSolve(right, answer)
         return np.array(answer.getDenseArray())
 
-    def restricted(self, finer: Liquid, loads: Array) -> Array:
-        """Loads on the unknowns of a liquid of a higher degree as loads on these, shape (unknowns, loads) (collective)."""
-        if finer.degree not in self._interpolations:
-            matrix = fem_petsc.interpolation_matrix(self.space, finer.space)
-            matrix.assemble()
-            self._interpolations[finer.degree] = matrix
-        found = self._interpolations[finer.degree].transposeMatMult(finer._dense(loads))
-        return np.array(found.getDenseArray())
+    def restricted(self, finer: Liquid, rows: Indices, loads: Array) -> Array:
+        """Loads on own unknowns of a liquid of a higher degree as loads on these, shape (unknowns, loads) (collective)."""
+        if finer.degree not in self._restrictions:
+            # Each of them is a sum of functions of this degree in any of its cells.
+            elements = [liquid.space.ufl_element().basix_element for liquid in (self, finer)]
+            table = basix.compute_interpolation_operator(*elements)
+            places, first = np.unique(finer.space.dofmap.list, return_index=True)
+            cells, local = np.divmod(first[np.searchsorted(places, rows)], table.shape[0])
+            starts = np.arange(len(rows) + 1) * table.shape[1]
+            columns = np.asarray(self.space.dofmap.list[cells]).ravel()
+            shape = len(rows), len(self.points)
+            self._restrictions[finer.degree] = sp.csr_array((table[local].ravel(), columns, starts), shape=shape).T
+        found = np.asarray(self._restrictions[finer.degree] @ loads)
+        if self.comm.size > 1:
+            vector = fem.Function(self.space).x
+            for column in found.T:
+                vector.array[:] = column
+                vector.scatter_reverse(InsertMode.add)
+                column[:] = vector.array
+        return found[: self.owned]
 
     def _dense(self, array: Array, *, copy: bool = False) -> PETSc.Mat:
         size = ((self.owned, self.size), (None, array.shape[1]))

@@ -106,7 +106,7 @@ class Pencil:
         """
         if liquid is None:
             return np.einsum("ik,ij,jk->k", vectors, self.added_mass, vectors, optimize=True)
-        loads = liquid.restricted(self.liquid, _spread(self.coupling @ vectors, self.rows, self.liquid))
+        loads = liquid.restricted(self.liquid, self.rows, self.coupling @ vectors)
         weights = np.array(liquid.densities)[liquid.layer_of]
         energies = np.einsum("nk,nk,n->k", loads, liquid.solve(loads, self.zero), weights)
         liquid.comm.Allreduce(MPI.IN_PLACE, energies)

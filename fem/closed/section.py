@@ -39,7 +39,7 @@ from hydroelastic.fem.closed.discretization import (
     sought_modes,
 )
 from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
-from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, float_modes
+from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, first_elastic, float_modes
 from hydroelastic.fem.core.adaptive import largest, solve_adaptive
 from hydroelastic.fem.core.bodies import Body, extension, moving_bodies
 from hydroelastic.fem.core.estimate import remainder
@@ -175,14 +175,21 @@ class DiscreteSection:
         ]
         loads = Loads(self.liquid(degree), surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
         zero = released_surfaces(tank, released=self.released)
-        pencils: dict[Parity | None, Pencil]
         if self.half:
             counts = shapes_of_twins(tank, counts)
-            planes = {parity: (*zero, SYMMETRY_PLANE) if parity == "antisymmetric" else zero for parity in PARITIES}
-            pencils = {parity: loads.pencil(moving_bodies(tank, counts, parity), planes[parity]) for parity in PARITIES}
-        else:
-            pencils = {None: loads.pencil(moving_bodies(tank, counts, None), zero)}
+        pencils = {}
+        for part in self.parts:
+            plane = (SYMMETRY_PLANE,) if part == "antisymmetric" else ()
+            pencils[part] = loads.pencil(moving_bodies(tank, counts, part), (*zero, *plane))
         return {key: pencil.released([INTERFACE]) for key, pencil in pencils.items()} if self.released else pencils
+
+    @cached_property
+    def parts(self) -> tuple[Parity | None, ...]:
+        """The symmetries to solve: in the limit, where no float moves, those of first dry modes."""
+        if not self.half or not self.released or self.tank.rigid:
+            return PARITIES if self.half else (None,)
+        first = [first_elastic(self.bodies, index)[1] for index in self.tank.elastic]
+        return tuple(parity for parity in PARITIES if self.extensions[parity][first].any())
 
     @cached_property
     def bodies(self) -> tuple[Body, ...]:

@@ -178,7 +178,7 @@ def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
             for piece in level.pieces
         ],
     )
-    return replace(found, degree=min(found.degree + 1, HIGHEST_DEGREE))
+    return found
 
 
 def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:

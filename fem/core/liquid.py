@@ -100,7 +100,7 @@ class Liquid:
             coordinate_degree(domain),
             degree,
         )
-        self.space = fem.functionspace(domain, ("Lagrange", degree))
+        self.space = fem.functionspace(domain, self.forms.element)
         self._conditions: dict[Zero, Conditions] = {}
         self._restrictions: dict[int, sp.csc_array] = {}
         self._matrix: PETSc.Mat | None = None
@@ -171,13 +171,14 @@ class Liquid:
         return self._conditions[zero]
 
     def solve(self, loads: Array, zero: Zero) -> Array:
-        """A⁺: ψ of loads, both on the unknowns of this process, shape (unknowns, loads) (collective).
+        """A⁺: ψ of loads, both on the unknowns of this process, shape (unknowns, loads); loads where ψ = 0 become zero
+        (collective).
 
         The factors are those of the last conditions; others take their symbolic factorization.
         """
         if not loads.shape[1]:
-            return loads.copy()
-        fixed = self.conditions(zero).fixed
+            return loads
+        fixed, size = self.conditions(zero).fixed, ((self.owned, self.size), (None, loads.shape[1]))
         if self._factorized != zero:
             if self._matrix is None:
                 self._matrix = self.laplace.copy()
@@ -186,11 +187,10 @@ class Liquid:
             self._matrix.zeroRowsColumns((fixed + self.first).astype(PETSc.IntType), 1.0)
             self._factorized, self._solver = None, direct_solver(self._matrix, self._solver)
             self._factorized = zero
-        right = self._dense(loads, copy=True)
-        right.getDenseArray()[fixed] = 0.0
-        answer = self._dense(np.empty(loads.shape))
-        self._solver.matSolve(right, answer)
-        return np.array(answer.getDenseArray())
+        loads[fixed] = 0.0
+        psi = np.empty(loads.shape, order="F")
+        self._solver.matSolve(*(PETSc.Mat().createDense(size, array=own, comm=self.comm) for own in (np.asfortranarray(loads), psi)))
+        return psi
 
     def restricted(self, finer: Liquid, rows: Indices, loads: Array) -> Array:
         """Loads on own unknowns of a liquid of a higher degree as loads on these, shape (unknowns, loads) (collective)."""
@@ -212,10 +212,6 @@ class Liquid:
                 vector.scatter_reverse(InsertMode.add)
                 column[:] = vector.array
         return found[: self.owned]
-
-    def _dense(self, array: Array, *, copy: bool = False) -> PETSc.Mat:
-        size = ((self.owned, self.size), (None, array.shape[1]))
-        return PETSc.Mat().createDense(size, array=np.array(array, order="F", copy=copy or None), comm=self.comm)
 
     def function(self, values: Array, name: str = "psi") -> fem.Function:
         """A function of ψ from the values of the unknowns of this process."""
@@ -242,7 +238,7 @@ class ShapeSpace:
         self._columns: dict[str, Indices] = {}
         if not present:
             return
-        space = fem.functionspace(domain, ("Lagrange", liquid.degree + SMOOTHER, (self._dim,)))
+        space = fem.functionspace(domain, liquid.forms.shapes)
         facets = np.unique(np.concatenate([liquid.mesh.facets(name) for name in present]))
         form = form_on_facets(liquid.forms.normal_load, [liquid.space, space], domain, MARKED, facets)
         self._matrix = _rows(_assembled(form))

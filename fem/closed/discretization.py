@@ -43,23 +43,15 @@ _FINER = 0.65
 
 @dataclass(frozen=True, kw_only=True)
 class Discretization:
-    """What the loop refines.
+    """What the loop refines."""
 
-    Attributes:
-        degree: of ψ.
-        sizes: largest cells on each piece of the still levels, along a float's contour; in tank lengths.
-        bulk: largest cells anywhere.
-        near: size of cells at singular points, in parts of the distance to the next corner.
-        geometry_degree: of curved cells.
-        dry_modes: number of those of each beam, 0 for floats.
-    """
-
-    degree: int
+    degree: int  # of ψ
+    # largest cells on each piece of the still levels, along a float's contour; in tank lengths
     sizes: tuple[float, ...]
-    bulk: float
-    near: float
-    geometry_degree: int
-    dry_modes: tuple[int, ...]
+    bulk: float  # largest cells anywhere
+    near: float  # size of cells at singular points, in parts of the distance to the next corner
+    geometry_degree: int  # of curved cells
+    dry_modes: tuple[int, ...]  # number of those of each beam, 0 for floats
 
     @property
     def cells(self) -> tuple[object, ...]:
@@ -92,17 +84,11 @@ class Discretization:
 
 @dataclass(frozen=True, kw_only=True)
 class SoughtModes:
-    """The modes to solve for.
+    """The modes to solve for."""
 
-    Attributes:
-        modes: their number.
-        accurate: number of those that must be accurate; the others, above, identify a tone.
-        reaches_tones: of each beam, whether its first elastic tone is expected among them.
-    """
-
-    modes: int
-    accurate: int
-    reaches_tones: tuple[bool, ...]
+    modes: int  # their number
+    accurate: int  # number of those that must be accurate; the others, above, identify a tone
+    reaches_tones: tuple[bool, ...]  # of each beam, whether its first elastic tone is expected among them
 
 
 def sought_modes(tank: Tank, modes: int) -> SoughtModes:

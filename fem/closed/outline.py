@@ -60,15 +60,7 @@ def released_surfaces(tank: Tank, *, released: bool) -> tuple[str, ...]:
 
 
 def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool = False, released: bool = False) -> Outline:
-    """Return the outline of a tank, or of its left half.
-
-    Args:
-        tank: dimensionless.
-        sizes: largest cells on each piece of the still levels, along a float's contour.
-        half: whether of the half alone.
-        released: whether in the limit of infinite frequency, where cells on both sides of an interface have other
-            singular points.
-    """
+    """Return the outline of a tank, or of its left half."""
     contours: dict[int | None, float] = {
         piece.body: size for piece, size in zip(tank.pieces, sizes, strict=True) if piece.body in tank.hulls
     }
@@ -220,14 +212,7 @@ class _Builder:
         return inf if number is None else min(0.5 * (end[1] - start[1]), self.contours[number - 1])
 
     def _curve(
-        self,
-        name: str,
-        start: Point,
-        end: Point,
-        *,
-        arc: Arc | None = None,
-        size: float = inf,
-        cut: bool = False,
+        self, name: str, start: Point, end: Point, *, arc: Arc | None = None, size: float = inf, cut: bool = False
     ) -> int:
         key = name, start, end
         if key not in self._numbers:

@@ -84,15 +84,6 @@ class DiscreteSection:
     def __init__(
         self, comm: MPI.Comm, tank: Tank, discretization: Discretization, *, half: bool, released: bool = False
     ) -> None:
-        """Nothing is made before it is asked for.
-
-        Args:
-            comm: processes.
-            tank: dimensionless.
-            discretization: of it.
-            half: whether of its left half.
-            released: whether in the limit of infinite frequency.
-        """
         self.comm, self.tank, self.discretization, self.half, self.released = comm, tank, discretization, half, released
         self._liquids: dict[int, Liquid] = {}
         self._pencils: dict[int, Pencils] = {}
@@ -253,25 +244,16 @@ def distributed(comm: MPI.Comm, make: Callable[[], NodedMesh]) -> TankMesh:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionModes:
-    """Modes on one discretization.
+    """Modes on one discretization."""
 
-    Attributes:
-        section: the discretization.
-        modes: of all parts.
-        errors: relative errors of ω, or of a growth rate, by cause, shape (causes, modes).
-        judged: modes whose errors are to keep the tolerance.
-        tones: of each elastic body.
-        float_modes: of each restored motion of floats.
-        missing: tones that may lie above the modes.
-    """
-
-    section: DiscreteSection
-    modes: MergedModes[Parity | None]
-    errors: Array
+    section: DiscreteSection  # the discretization
+    modes: MergedModes[Parity | None]  # of all parts
+    errors: Array  # relative errors of ω, or of a growth rate, by cause, shape (causes, modes)
+    # modes whose errors are to keep the tolerance
     judged: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
-    tones: tuple[ElasticTone, ...] = ()
-    float_modes: tuple[FloatMode, ...] = ()
-    missing: int = 0
+    tones: tuple[ElasticTone, ...] = ()  # of each elastic body
+    float_modes: tuple[FloatMode, ...] = ()  # of each restored motion of floats
+    missing: int = 0  # tones that may lie above the modes
 
     @property
     def total(self) -> Array:
@@ -328,7 +310,9 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
 
     found = modes.values
     energies = section.liquid_energies({key: part.vectors for key, part in modes.parts.items()})
-    liquid = modes.of_parts({key: remainder(*(part.body_energies + energies[key])) for key, part in modes.parts.items()})
+    liquid = modes.of_parts(
+        {key: remainder(*(part.body_energies + energies[key])) for key, part in modes.parts.items()}
+    )
     geometry = section.geometry_errors(values, len(found))
     dry: Array = np.zeros(len(found))
     if section.tank.elastic:
@@ -353,23 +337,14 @@ def _values(pencil: Pencil, count: int, growing: int) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class ReleasedLimit:
-    """The limit of infinite frequency on one discretization.
+    """The limit of infinite frequency on one discretization."""
 
-    Attributes:
-        section: the discretization.
-        modes: the modes with ψ = 0 on the free surface, where there are beams.
-        tones: of each elastic body.
-        added_mass: of the floats' motions, dimensionless, shape (motions, motions); ``None`` without.
-        added_mass_error: relative to the root of the product of diagonal entries.
-        errors: relative errors of the tones' ω and of the added masses, by cause, shape (causes, values).
-    """
-
-    section: DiscreteSection
-    modes: SectionModes | None
-    tones: tuple[ElasticTone, ...]
-    added_mass: Array | None
-    added_mass_error: float
-    errors: Array
+    section: DiscreteSection  # the discretization
+    modes: SectionModes | None  # the modes with ψ = 0 on the free surface, where there are beams
+    tones: tuple[ElasticTone, ...]  # of each elastic body
+    added_mass: Array | None  # of the floats' motions, dimensionless, shape (motions, motions); ``None`` without
+    added_mass_error: float  # relative to the root of the product of diagonal entries
+    errors: Array  # relative errors of the tones' ω and of the added masses, by cause, shape (causes, values)
     missing: int = 0
 
     @property
@@ -436,8 +411,8 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
     def motions(key: Parity | None, pencil: Pencil) -> Array:
         path = section.extensions[key][of_floats]
         if key is not None:
-            # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half has the
-            # mean, or the difference.
+            # A body cut by the mirror plane moves alike in both halves; of mirrored bodies each half has the mean or
+            # the difference.
             path = np.sqrt(2.0) * np.sign(path) / np.maximum(np.count_nonzero(path, axis=0), 1)
         return np.hstack([path, np.zeros((len(path), pencil.size - pencil.body_size))]).T
 
@@ -472,29 +447,17 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionSolution:
-    """The solution of a closed section.
+    """The solution of a closed section."""
 
-    Attributes:
-        physical: the tank, in SI units.
-        tank: the same in its own units, in which ρ = g = L = 1.
-        tolerance: asked relative error of frequencies.
-        count: number of modes asked for.
-        sought: modes that were solved for.
-        found: the modes.
-        limit: the limit of infinite frequency.
-        counted: whether inertia confirms that no mode is missing.
-        seconds: by stage.
-    """
-
-    physical: Tank
-    tank: Tank
-    tolerance: float
-    count: int
-    sought: SoughtModes
-    found: SectionModes
-    limit: ReleasedLimit | None
-    counted: bool
-    seconds: dict[str, float]
+    physical: Tank  # the tank, in SI units
+    tank: Tank  # the same in its own units, in which ρ = g = L = 1
+    tolerance: float  # asked relative error of frequencies
+    count: int  # number of modes asked for
+    sought: SoughtModes  # modes that were solved for
+    found: SectionModes  # the modes
+    limit: ReleasedLimit | None  # the limit of infinite frequency
+    counted: bool  # whether inertia confirms that no mode is missing
+    seconds: dict[str, float]  # by stage
 
     @cached_property
     def dataset(self) -> xr.Dataset:

@@ -41,29 +41,17 @@ _NEGLIGIBLE = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """A body of a tank in its unknowns, dimensionless.
+    """A body of a tank in its unknowns, dimensionless."""
 
-    Attributes:
-        index: among the bodies of the tank.
-        dofs: degree of freedom of each shape.
-        parities: symmetry of each shape about the middle of the body.
-        shapes: displacements of the wetted surface.
-        stiffness: of each shape, hydrostatics included, shape (shapes,).
-        bending: the part of it that is strain energy, shape (shapes,).
-        mass: shape (shapes, shapes).
-        motions: the shapes as columns in the degrees of freedom; the identity but of principal motions.
-        is_slit: whether its two sides lie on one line.
-    """
-
-    index: int
-    dofs: tuple[Dof, ...]
-    parities: tuple[Parity, ...]
-    shapes: Shapes
-    stiffness: Array
-    bending: Array
-    mass: Array
-    motions: Array
-    is_slit: bool = False
+    index: int  # among the bodies of the tank
+    dofs: tuple[Dof, ...]  # degree of freedom of each shape
+    parities: tuple[Parity, ...]  # symmetry of each shape about the middle of the body
+    shapes: Shapes  # displacements of the wetted surface
+    stiffness: Array  # of each shape, hydrostatics included, shape (shapes,)
+    bending: Array  # the part of it that is strain energy, shape (shapes,)
+    mass: Array  # shape (shapes, shapes)
+    motions: Array  # the shapes as columns in the degrees of freedom; the identity but of principal motions
+    is_slit: bool = False  # whether its two sides lie on one line
 
     @property
     def name(self) -> str:

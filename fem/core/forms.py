@@ -51,8 +51,8 @@ def normal_load(v, q, weight, normal):  # type: ignore[no-untyped-def]
 
 
 class CompiledForms(NamedTuple):
-    """Forms on any mesh of one kind, and elements of ψ and of bodies' shapes; `transverse` is the constant n² or k² of the
-    first form, ``None`` in a plane."""
+    """Forms on any mesh of one kind, and elements of ψ and of bodies' shapes; `transverse` is the constant n² or k², or
+    ``None``."""
 
     element: basix.ufl._ElementBase
     shapes: basix.ufl._ElementBase

@@ -28,7 +28,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.core.forms import MARKED, SMOOTHER, compiled_forms
+from hydroelastic.fem.core.forms import MARKED, compiled_forms
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.meshes.compat import coordinate_degree, form_in_cells, form_on_facets
 from hydroelastic.meshes.distribute import TankMesh
@@ -40,15 +40,10 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class Trace:
-    """The unknowns of ψ on a surface of one layer, on every process.
+    """The unknowns of ψ on a surface of one layer, on every process."""
 
-    Attributes:
-        facets: global numbers of the unknowns on each facet, along it, shape (facets, unknowns).
-        points: their coordinates, shape (facets, unknowns, dim).
-    """
-
-    facets: Indices
-    points: Array
+    facets: Indices  # global numbers of the unknowns on each facet, along it, shape (facets, unknowns)
+    points: Array  # their coordinates, shape (facets, unknowns, dim)
 
     @property
     def unknowns(self) -> Indices:
@@ -80,25 +75,12 @@ class Liquid:
     def __init__(
         self, mesh: TankMesh, degree: int, densities: Sequence[float], layers: Sequence[str], geometry: Geometry = PLANE
     ) -> None:
-        """Assemble A (collective).
-
-        Args:
-            mesh: of all layers, with nodes split between them.
-            degree: of ψ.
-            densities: ρ of each layer, from the bottom up.
-            layers: physical name of the cells of each.
-            geometry: what the mesh stands for.
-        """
         self.mesh, self.degree, self.densities, self.geometry = mesh, degree, tuple(densities), geometry
         domain = mesh.mesh
         self.comm: MPI.Comm = domain.comm
         cell = domain.ufl_cell().cellname
         self.forms = compiled_forms(
-            geometry.kind,
-            cell() if callable(cell) else cell,
-            domain.geometry.dim,
-            coordinate_degree(domain),
-            degree,
+            geometry.kind, cell() if callable(cell) else cell, domain.geometry.dim, coordinate_degree(domain), degree
         )
         self.space = fem.functionspace(domain, self.forms.element)
         self._conditions: dict[Zero, Conditions] = {}
@@ -144,14 +126,17 @@ class Liquid:
         """The unknowns on the facets of a name in a layer (collective)."""
         dim = self.mesh.mesh.topology.dim
         cells, sides = _cells_at(self.mesh.mesh, self.mesh.facets(name))
-        here = (cells < len(self.layer_of_cell)) & (self.layer_of_cell[np.minimum(cells, len(self.layer_of_cell) - 1)] == layer)
+        here = (cells < len(self.layer_of_cell)) & (
+            self.layer_of_cell[np.minimum(cells, len(self.layer_of_cell) - 1)] == layer
+        )
         dofs = _on_sides(self.space, cells[here], sides[here])
         points = self.points[dofs]
         order = np.lexsort(np.round(points, 12).transpose(2, 0, 1)[::-1])
         dofs, points = np.take_along_axis(dofs, order, axis=1), np.take_along_axis(points, order[..., None], axis=1)
         numbers = self.space.dofmap.index_map.local_to_global(dofs.ravel().astype(np.int32)).reshape(dofs.shape)
         facets, points = (
-            np.concatenate(parts) for parts in zip(*self.comm.allgather((numbers, points.reshape(*dofs.shape, dim))), strict=True)
+            np.concatenate(parts)
+            for parts in zip(*self.comm.allgather((numbers, points.reshape(*dofs.shape, dim))), strict=True)
         )
         order = np.lexsort(np.round(points.mean(axis=1), 12).T[::-1])
         return Trace(facets=facets[order], points=points[order])
@@ -189,11 +174,13 @@ class Liquid:
             self._factorized = zero
         loads[fixed] = 0.0
         psi = np.empty(loads.shape, order="F")
-        self._solver.matSolve(*(PETSc.Mat().createDense(size, array=own, comm=self.comm) for own in (np.asfortranarray(loads), psi)))
+        self._solver.matSolve(
+            *(PETSc.Mat().createDense(size, array=own, comm=self.comm) for own in (np.asfortranarray(loads), psi))
+        )
         return psi
 
     def restricted(self, finer: Liquid, rows: Indices, loads: Array) -> Array:
-        """Loads on own unknowns of a liquid of a higher degree as loads on these, shape (unknowns, loads) (collective)."""
+        """Loads on own unknowns of a liquid of a higher degree as loads on these (collective)."""
         if finer.degree not in self._restrictions:
             # Each of them is a sum of functions of this degree in any of its cells.
             elements = [liquid.space.ufl_element().basix_element for liquid in (self, finer)]
@@ -224,10 +211,8 @@ class Liquid:
 class ShapeSpace:
     """Displacements v on wetted facets, and their loads ∫v·n q.
 
-    Attributes:
-        points: of each name, where v is asked for, and on which side of the facet the liquid is there along x, −1 or 1;
-            on every process.
-    """
+    `points`: of each name, where v is asked for, and on which side of the facet the liquid is there along x, −1 or 1;
+    on every process."""
 
     def __init__(self, liquid: Liquid, names: Sequence[str]) -> None:
         """Assemble the loads of a unit of v at each point (collective)."""

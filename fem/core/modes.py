@@ -40,25 +40,15 @@ _SHIFT = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Modes:
-    """The lowest modes of a pencil, ascending, at unit generalized mass.
+    """The lowest modes of a pencil, ascending, at unit generalized mass."""
 
-    Attributes:
-        pencil: theirs.
-        values: λ, shape (modes,).
-        vectors: ζ, shape (n, modes).
-        residuals: relative, shape (modes,).
-        growing: number of the first ones that grow, λ < 0.
-        complete: whether there are no others.
-        zero_modes: number of motions without stiffness.
-    """
-
-    pencil: Pencil
-    values: Array
-    vectors: Array
-    residuals: Array
-    growing: int
-    complete: bool
-    zero_modes: int
+    pencil: Pencil  # theirs
+    values: Array  # λ, shape (modes,)
+    vectors: Array  # ζ, shape (n, modes)
+    residuals: Array  # relative, shape (modes,)
+    growing: int  # number of the first ones that grow, λ < 0
+    complete: bool  # whether there are no others
+    zero_modes: int  # number of motions without stiffness
 
     @property
     def amplitudes(self) -> Array:

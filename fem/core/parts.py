@@ -21,19 +21,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class MergedModes(Generic[Key]):
-    """The lowest modes of all parts.
+    """The lowest modes of all parts."""
 
-    Attributes:
-        parts: the modes of each.
-        origins: of each mode in ascending order, the growing ones first: its part, and its number there.
-        growing: number of the growing ones.
-        complete: whether no mode lies above these.
-    """
-
-    parts: Mapping[Key, Modes]
+    parts: Mapping[Key, Modes]  # the modes of each
+    # of each mode in ascending order, the growing ones first: its part, and its number there
     origins: tuple[tuple[Key, int], ...]
-    growing: int
-    complete: bool
+    growing: int  # number of the growing ones
+    complete: bool  # whether no mode lies above these
 
     @property
     def values(self) -> Array:

@@ -45,33 +45,19 @@ class Surface(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Pencil:
-    """The matrices of one part of a tank.
+    """The matrices of one part of a tank."""
 
-    Attributes:
-        liquid: ψ.
-        bodies: in the order of their unknowns.
-        surfaces: in the order of theirs, with the number of the unknowns of each.
-        stiffness: K, shape (n, n).
-        mass: M of the bodies, shape (n, n).
-        added_mass: M_a, shape (n, n).
-        volume: V, shape (constraints, n), independent rows.
-        volumes: of all closed layers, as rows.
-        zero: names of facets with ψ = 0.
-        rows: unknowns of ψ of this process on what moves.
-        coupling: C on these, shape (rows, n); zero elsewhere.
-    """
-
-    liquid: Liquid
-    bodies: tuple[Body, ...]
-    surfaces: tuple[tuple[Surface, int], ...]
-    stiffness: Array
-    mass: Array
-    added_mass: Array
-    volume: Array
-    volumes: Array
-    zero: Zero
-    rows: Indices
-    coupling: Array
+    liquid: Liquid  # ψ
+    bodies: tuple[Body, ...]  # in the order of their unknowns
+    surfaces: tuple[tuple[Surface, int], ...]  # in the order of theirs, with the number of the unknowns of each
+    stiffness: Array  # K, shape (n, n)
+    mass: Array  # M of the bodies, shape (n, n)
+    added_mass: Array  # M_a, shape (n, n)
+    volume: Array  # V, shape (constraints, n), independent rows
+    volumes: Array  # of all closed layers, as rows
+    zero: Zero  # names of facets with ψ = 0
+    rows: Indices  # unknowns of ψ of this process on what moves
+    coupling: Array  # C on these, shape (rows, n); zero elsewhere
 
     @property
     def body_size(self) -> int:
@@ -101,8 +87,8 @@ class Pencil:
     def added_energies(self, vectors: Array, liquid: Liquid | None = None) -> Array:
         """ζᵀM_aζ, or what it is with ψ of a lower degree, of vectors that keep the volumes (collective).
 
-        ψ in a subspace, of loads that are the same on it, has the energy of the discretization of that degree: η follows
-        the trace of ψ. So λ changes by the same part as ζᵀ(M + M_a)ζ, up to squares.
+        The loads are the same on that subspace, and η follows the trace of ψ: λ changes by the same part as
+        ζᵀ(M + M_a)ζ, up to squares.
         """
         if liquid is None:
             return np.einsum("ik,ij,jk->k", vectors, self.added_mass, vectors, optimize=True)
@@ -194,13 +180,6 @@ class Loads:
     """What the parts of a tank have in common: the loads of surfaces and bodies on one mesh and degree."""
 
     def __init__(self, liquid: Liquid, surfaces: Sequence[Surface], bodies: Sequence[str]) -> None:
-        """Assemble the loads (collective).
-
-        Args:
-            liquid: ψ.
-            surfaces: under gravity.
-            bodies: names of the wetted surfaces.
-        """
         self.liquid = liquid
         self.surfaces = tuple(surface for surface in surfaces if liquid.has(surface.name))
         self.shapes = ShapeSpace(liquid, bodies)

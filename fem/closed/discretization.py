@@ -54,12 +54,10 @@ class Discretization:
     dry_modes: tuple[int, ...]  # number of those of each beam, 0 for floats
 
     @property
-    def cells(self) -> tuple[object, ...]:
-        """What the mesh depends on."""
-        return self.sizes, self.bulk, self.near, self.geometry_degree
+    def triangles(self) -> tuple[object, ...]:
+        return self.sizes, self.bulk, self.near
 
     def refined(self, causes: Mapping[str, float]) -> Discretization | None:
-        """A finer one for all causes above a part of the tolerance."""
         found = self
         if causes["dry_modes"] > _NEGLIGIBLE:
             factor = min(max(1.3, (2.0 * causes["dry_modes"]) ** (1.0 / 6.0)), 2.0)
@@ -84,8 +82,6 @@ class Discretization:
 
 @dataclass(frozen=True, kw_only=True)
 class SoughtModes:
-    """The modes to solve for."""
-
     modes: int  # their number
     accurate: int  # number of those that must be accurate; the others, above, identify a tone
     reaches_tones: tuple[bool, ...]  # of each beam, whether its first elastic tone is expected among them

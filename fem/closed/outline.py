@@ -60,7 +60,6 @@ def released_surfaces(tank: Tank, *, released: bool) -> tuple[str, ...]:
 
 
 def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool = False, released: bool = False) -> Outline:
-    """Return the outline of a tank, or of its left half."""
     contours: dict[int | None, float] = {
         piece.body: size for piece, size in zip(tank.pieces, sizes, strict=True) if piece.body in tank.hulls
     }
@@ -87,12 +86,12 @@ class _Builder:
         name = layer_names(self.tank)[number]
         splits = self._splits(number)
         marks = tuple(splits)
-        floor, ceiling = self._floor(number, marks), self._ceiling(number, marks)
+        floor, ceiling = self._floor(number, marks), self._level(self.tank.levels[number], marks, upper_side=False)
         sides = [0.0, *(x for x in marks if x < self.right), self.right]
         for left, right in pairwise(sides):
             below, above = self._between(floor, left, right), self._between(ceiling, left, right)
-            up = self._side(number, right, self._last(below), self._last(above), splits)
-            down = self._side(number, left, self._first(below), self._first(above), splits)
+            up = self._side(number, right, self._ends(below[-1])[1], self._ends(above[-1])[1], splits)
+            down = self._side(number, left, self._ends(below[0])[0], self._ends(above[0])[0], splits)
             yield Region(name=name, loop=(*below, *up, *_reversed(above), *_reversed(down)))
 
     def _splits(self, number: int) -> dict[float, list[int]]:
@@ -116,9 +115,6 @@ class _Builder:
         y = self.tank.layers[0].floor
         stops = [0.0, *(x for x in marks if x < self.right), self.right]
         return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
-
-    def _ceiling(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
-        return self._level(self.tank.levels[number], marks, upper_side=False)
 
     def _level(self, level: StillLevel, marks: tuple[float, ...], *, upper_side: bool) -> list[Directed]:
         # Both layers must divide the level at the slits of either.
@@ -147,7 +143,6 @@ class _Builder:
         ]
 
     def _condition(self, level: StillLevel, piece: Piece) -> tuple[str, bool]:
-        """Physical name of a piece, and whether the liquids above and below it have separate nodes."""
         if piece.body is not None:
             return body_name(piece.body + 1), level.above is not None
         if level.above is not None:
@@ -233,12 +228,6 @@ class _Builder:
     def _ends(self, directed: Directed) -> tuple[Point, Point]:
         curve, forward = self.curves[directed[0]], directed[1]
         return (curve.start, curve.end) if forward else (curve.end, curve.start)
-
-    def _first(self, path: tuple[Directed, ...]) -> Point:
-        return self._ends(path[0])[0]
-
-    def _last(self, path: tuple[Directed, ...]) -> Point:
-        return self._ends(path[-1])[1]
 
 
 def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
@@ -344,8 +333,7 @@ def singular_points(tank: Tank, *, half: bool, released: bool) -> tuple[Singular
     return tuple(points)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Wedge:
+class _Wedge(NamedTuple):
     """A region's wedge at a point, between the curve of its boundary that leaves the point and the one that arrives."""
 
     leaving: int
@@ -371,8 +359,7 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
     return atan2(y_near - y, x_near - x)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Sector:
+class _Sector(NamedTuple):
     names: tuple[str, str]
     angle: float
     crossed: bool

@@ -88,41 +88,37 @@ class DiscreteSection:
         self._liquids: dict[int, Liquid] = {}
         self._pencils: dict[int, Pencils] = {}
 
-    def refined(self, discretization: Discretization) -> DiscreteSection:
+    def changed(self, discretization: Discretization) -> DiscreteSection:
         """Another discretization, with what it has in common with this one."""
+        if discretization == self.discretization:
+            return self
         other = DiscreteSection(self.comm, self.tank, discretization, half=self.half, released=self.released)
-        if discretization.cells == self.discretization.cells:
-            vars(other).update(
-                {name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)}
-            )
-            other._liquids = self._liquids
-            if discretization.dry_modes == self.discretization.dry_modes:
-                other._pencils = self._pencils
+        if discretization.triangles == self.discretization.triangles:
+            alike = discretization.geometry_degree == self.discretization.geometry_degree
+            shared = {"_triangles", "outline", *(("mesh", "_liquids") if alike else ())}
+            if alike and discretization.dry_modes == self.discretization.dry_modes:
+                shared.add("_pencils")
+            vars(other).update({name: value for name, value in vars(self).items() if name in shared})
         return other
 
     @cached_property
     def points(self) -> tuple[SingularPoint, ...]:
-        """The singular points."""
         return singular_points(self.tank, half=self.half, released=self.released)
 
     @cached_property
     def mesh(self) -> TankMesh:
-        """The mesh (collective)."""
         return distributed(self.comm, self._noded)
 
     @property
     def mesh_degree(self) -> int:
-        """Degree of the cells' geometry."""
         return coordinate_degree(self.mesh.mesh)
 
     @cached_property
     def outline(self) -> Outline:
-        """The outline with its sizes."""
         return tank_outline(self.tank, self.discretization.sizes, half=self.half, released=self.released)
 
     @property
     def is_curved(self) -> bool:
-        """Whether cells follow curves."""
         return any(curve.path is not None for curve in self.outline.curves)
 
     @cached_property
@@ -153,11 +149,8 @@ class DiscreteSection:
 
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
-        if degree not in self._pencils:
-            self._pencils[degree] = self._made(degree)
-        return self._pencils[degree]
-
-    def _made(self, degree: int) -> Pencils:
+        if degree in self._pencils:
+            return self._pencils[degree]
         tank, counts, measure = self.tank, self.discretization.dry_modes, self.tank.geometry.measure
         surfaces = [
             Surface(FREE_SURFACE if level.above is None else INTERFACE, level.below, level.above, measure * level.jump)
@@ -168,11 +161,13 @@ class DiscreteSection:
         zero = released_surfaces(tank, released=self.released)
         if self.half:
             counts = shapes_of_twins(tank, counts)
-        pencils = {}
+        pencils: dict[Parity | None, Pencil] = {}
         for part in self.parts:
             plane = (SYMMETRY_PLANE,) if part == "antisymmetric" else ()
-            pencils[part] = loads.pencil(moving_bodies(tank, counts, part), (*zero, *plane))
-        return {key: pencil.released([INTERFACE]) for key, pencil in pencils.items()} if self.released else pencils
+            pencil = loads.pencil(moving_bodies(tank, counts, part), (*zero, *plane))
+            pencils[part] = pencil.released([INTERFACE]) if self.released else pencil
+        self._pencils[degree] = pencils
+        return pencils
 
     @cached_property
     def parts(self) -> tuple[Parity | None, ...]:
@@ -184,7 +179,6 @@ class DiscreteSection:
 
     @cached_property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies of the whole tank."""
         counts = self.discretization.dry_modes
         return moving_bodies(self.tank, shapes_of_twins(self.tank, counts) if self.half else counts, None)
 
@@ -193,34 +187,26 @@ class DiscreteSection:
         """From the body unknowns of each part to those of the whole tank."""
         return {parity: extension(self.tank, self.bodies, parity) for parity in (PARITIES if self.half else (None,))}
 
-    def other_geometry(self) -> DiscreteSection:
-        """The same with cells of another degree."""
-        own = self.discretization
-        changed = replace(own, geometry_degree=own.geometry_degree - 2)
-        other = DiscreteSection(self.comm, self.tank, changed, half=self.half, released=self.released)
-        vars(other).update({name: vars(self)[name] for name in ("_triangles", "outline") if name in vars(self)})
-        return other
-
     def liquid_energies(self, vectors: Mapping[Parity | None, Array]) -> dict[Parity | None, Array]:
         """ζᵀM_aζ of vectors of each part that keep the volumes, with ψ of this degree and of the two below, shape (3,
         vectors) (collective)."""
         degree = self.discretization.degree
         pencils, coarser = self.pencils(degree), (None, self.liquid(degree - 1), self.liquid(degree - 2))
         return {
-            key: np.array([pencils[key].added_energies(own, liquid) for liquid in coarser])
-            for key, own in vectors.items()
+            key: np.array([pencils[key].added_energies(own, one) for one in coarser]) for key, own in vectors.items()
         }
 
     def geometry_errors(self, values: Callable[[Pencils], Array], count: int) -> Array:
         """Relative differences of some values, between cells of two degrees of the geometry (collective)."""
         if not self.is_curved:
             return np.zeros(count)
-        low = min(self.discretization.degree, _DEGREE_OF_GEOMETRY)
-        here, there = values(self.pencils(low)), values(self.other_geometry().pencils(low))
+        own = self.discretization
+        low = min(own.degree, _DEGREE_OF_GEOMETRY)
+        other = self.changed(replace(own, geometry_degree=own.geometry_degree - 2))
+        here, there = values(self.pencils(low)), values(other.pencils(low))
         return np.asarray(np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here)))
 
     def rounding(self, values: Array) -> Array:
-        """Relative rounding of λ."""
         lowest = values[values > 0.0].min(initial=inf)
         return (
             2.0 * rounding_error(self.discretization.degree, self.tank.depth)
@@ -244,8 +230,6 @@ def distributed(comm: MPI.Comm, make: Callable[[], NodedMesh]) -> TankMesh:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionModes:
-    """Modes on one discretization."""
-
     section: DiscreteSection  # the discretization
     modes: MergedModes[Parity | None]  # of all parts
     errors: Array  # relative errors of ω, or of a growth rate, by cause, shape (causes, modes)
@@ -257,7 +241,6 @@ class SectionModes:
 
     @property
     def total(self) -> Array:
-        """The sum of all causes."""
         return np.asarray(self.errors.sum(axis=0))
 
     @property
@@ -272,7 +255,6 @@ class SectionModes:
 
     @cached_property
     def values(self) -> Array:
-        """λ of the modes that oscillate."""
         return self.modes.values[self.modes.growing :]
 
     @cached_property
@@ -295,7 +277,6 @@ class SectionModes:
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """The surfaces under gravity."""
         return tuple(surface for surface, _ in next(iter(self.modes.parts.values())).pencil.surfaces)
 
 
@@ -330,7 +311,6 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
 
 
 def _values(pencil: Pencil, count: int, growing: int) -> Array:
-    """The first λ of a part; NaN where there are fewer."""
     found = lowest_modes(pencil, count - growing).values[:count]
     return np.append(found, np.full(count - len(found), np.nan))
 
@@ -447,8 +427,6 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionSolution:
-    """The solution of a closed section."""
-
     physical: Tank  # the tank, in SI units
     tank: Tank  # the same in its own units, in which ρ = g = L = 1
     tolerance: float  # asked relative error of frequencies
@@ -461,7 +439,6 @@ class SectionSolution:
 
     @cached_property
     def dataset(self) -> xr.Dataset:
-        """All results in SI units."""
         from hydroelastic.fem.closed.dataset import section_dataset
 
         return section_dataset(self)
@@ -521,25 +498,23 @@ def solve_section(
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):
         report("limit of infinite frequency")
-        sections = _Sections(comm, tank, half=half, released=True)
-        limit = solve_adaptive(
-            discretization_of_limit(tank, workable), lambda own: released_limit(sections.of(own)), workable
-        )
+        released = DiscreteSection(comm, tank, discretization_of_limit(tank, workable), half=half, released=True)
+        limit = solve_adaptive(released.discretization, lambda own: released_limit(released.changed(own)), workable)
     limited = perf_counter()
-    sections = _Sections(comm, tank, half=half)
+    section = DiscreteSection(comm, tank, discretization_of_modes(tank, workable, sought), half=half)
     wanted = sought.modes
 
     def analysis(discretization: Discretization) -> SectionModes:
         report(f"degree {discretization.degree}, {wanted} modes")
-        return _with_tones(estimated_modes(sections.of(discretization), wanted), modes, limit)
+        return _with_tones(estimated_modes(section.changed(discretization), wanted), modes, limit)
 
-    first = discretization_of_modes(tank, workable, sought)
-    found = solve_adaptive(first, analysis, workable)
+    found = solve_adaptive(section.discretization, analysis, workable)
     if _uncertain(found, sought) and wanted < MOST_MODES_TO_TONE:
         # A tone may lie above: more modes, once.
         wanted = min(ceil(1.6 * wanted), MOST_MODES_TO_TONE)
         wider = discretization_of_modes(tank, workable, replace(sought, accurate=wanted))
-        found = solve_adaptive(replace(wider, degree=max(wider.degree, first.degree)), analysis, workable)
+        section = section.changed(replace(wider, degree=max(wider.degree, section.discretization.degree)))
+        found = solve_adaptive(section.discretization, analysis, workable)
     solved = perf_counter()
     counted = found.modes.is_counted()
     seconds = {"limit": limited - began, "modes": solved - limited, "count": perf_counter() - solved}
@@ -554,21 +529,6 @@ def solve_section(
         counted=counted,
         seconds=seconds,
     )
-
-
-class _Sections:
-    """The last discretization, whose parts the next one may have in common with it."""
-
-    def __init__(self, comm: MPI.Comm, tank: Tank, *, half: bool, released: bool = False) -> None:
-        self._comm, self._tank, self._half, self._released = comm, tank, half, released
-        self._last: DiscreteSection | None = None
-
-    def of(self, own: Discretization) -> DiscreteSection:
-        if self._last is None:
-            self._last = DiscreteSection(self._comm, self._tank, own, half=self._half, released=self._released)
-        else:
-            self._last = self._last.refined(own)
-        return self._last
 
 
 def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) -> SectionModes:

@@ -49,12 +49,10 @@ class ElasticTone:
 
     @property
     def is_shared(self) -> bool:
-        """Whether a second mode has a participation nearly as large."""
         return self.runner_up > SHARED * self.participation
 
     @property
     def is_of_one_mode(self) -> bool:
-        """Whether the tone is attributed to a single mode."""
         return not self.is_shared or self.participation >= LEAST_OF_ONE_MODE
 
 
@@ -102,7 +100,6 @@ class FloatMode:
 
     @property
     def is_shared(self) -> bool:
-        """Whether a second mode has nearly the same amplitude, by coupling with waves or other bodies."""
         return self.index is not None and self.runner_up < _SHARED_MOTION * self.modal_mass
 
 

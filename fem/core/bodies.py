@@ -55,12 +55,10 @@ class Body:
 
     @property
     def name(self) -> str:
-        """Name of its wetted surface."""
         return body_name(self.index + 1)
 
     @property
     def size(self) -> int:
-        """Number of shapes."""
         return len(self.dofs)
 
     def of_first(self, count: int) -> Array:
@@ -157,7 +155,6 @@ BODIES: dict[type, Callable[[Tank, int, int, Parity | None], Body]] = {Beam: bea
 
 
 def body_of(tank: Tank, index: int, count: int, parity: Parity | None = None) -> Body:
-    """A body of a scaled tank in its unknowns."""
     make = next(make for kind, make in BODIES.items() if isinstance(tank.bodies[index], kind))
     return make(tank, index, count, parity)
 

@@ -108,7 +108,6 @@ class Liquid:
         return np.asarray(self.space.tabulate_dof_coordinates()[:, : self.mesh.mesh.geometry.dim])
 
     def has(self, name: str) -> bool:
-        """Whether the mesh has facets of a name."""
         return name in self.mesh.facet_names
 
     def boundary(self, name: str) -> Indices:
@@ -118,7 +117,6 @@ class Liquid:
         return np.asarray(dofs[dofs < self.owned], dtype=np.int64)
 
     def surface(self, name: str) -> PETSc.Mat:
-        """∫ηq over the facets of a name (collective)."""
         form = form_on_facets(self.forms.surface, [self.space] * 2, self.mesh.mesh, MARKED, self.mesh.facets(name))
         return _assembled(form)
 
@@ -201,7 +199,6 @@ class Liquid:
         return found[: self.owned]
 
     def function(self, values: Array, name: str = "psi") -> fem.Function:
-        """A function of ψ from the values of the unknowns of this process."""
         function = fem.Function(self.space, name=name)
         function.x.array[: self.owned] = values
         function.x.scatter_forward()
@@ -264,7 +261,6 @@ def _cells_at(mesh: Mesh, facets: NDArray[np.int32]) -> tuple[NDArray[np.int32],
 
 
 def _on_sides(space: fem.FunctionSpace, cells: NDArray[np.int32], sides: Indices) -> Indices:
-    """The unknowns on sides of cells, shape (cells, unknowns of a side)."""
     closure = np.array(space.element.basix_element.entity_closure_dofs[space.mesh.topology.dim - 1])
     return np.asarray(space.dofmap.list[cells[:, None], closure[sides]], dtype=np.int64)
 
@@ -276,6 +272,5 @@ def _assembled(form: fem.Form) -> PETSc.Mat:
 
 
 def _rows(matrix: PETSc.Mat) -> sp.csr_matrix:
-    """Own rows of a matrix, with all columns."""
     rows, columns = matrix.getLocalSize()[0], matrix.getSize()[1]
     return sp.csr_matrix(matrix.getValuesCSR()[::-1], shape=(rows, columns))

@@ -167,21 +167,18 @@ class _Volumes:
         return np.asarray(own[0])
 
     def projected(self, matrix: Array) -> Array:
-        """Zᵀ (matrix) Z."""
         if not self._count:
             return matrix
         turned = self._turned(self._turned(matrix, "L", "T"), "R", "N")
         return turned[self._count :, self._count :]
 
     def whole(self, vectors: Array) -> Array:
-        """Z (vectors)."""
         if not self._count:
             return vectors
         return self._turned(np.vstack([np.zeros((self._count, vectors.shape[1])), vectors]), "L", "N")
 
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:
-    """The largest eigenvalues of a symmetric matrix, descending, and their vectors."""
     size = len(operator)
     if size <= max(_FEW, 3 * count):
         values, vectors = eigh(operator, subset_by_index=(size - count, size - 1), driver="evr", check_finite=False)

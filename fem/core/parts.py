@@ -31,7 +31,6 @@ class MergedModes(Generic[Key]):
 
     @property
     def values(self) -> Array:
-        """λ of each mode."""
         return np.array([self.parts[key].values[number] for key, number in self.origins])
 
     def of_parts(self, values: Mapping[Key, Array]) -> Array:
@@ -40,7 +39,6 @@ class MergedModes(Generic[Key]):
 
     @property
     def zero_modes(self) -> int:
-        """Number of motions without stiffness."""
         return sum(modes.zero_modes for modes in self.parts.values())
 
     def is_counted(self) -> bool:

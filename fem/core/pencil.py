@@ -61,17 +61,14 @@ class Pencil:
 
     @property
     def body_size(self) -> int:
-        """Number of body unknowns; they come first."""
         return sum(body.size for body in self.bodies)
 
     @property
     def size(self) -> int:
-        """Number of surface unknowns."""
         return len(self.stiffness)
 
     @cached_property
     def kinetic(self) -> Array:
-        """M + M_a."""
         return self.mass + self.added_mass
 
     @cached_property
@@ -99,7 +96,6 @@ class Pencil:
         return energies
 
     def with_bodies(self, bodies: tuple[Body, ...]) -> Pencil:
-        """Other stiffnesses and masses of the same shapes."""
         size = self.body_size
         stiffness, mass = self.stiffness.copy(), self.mass.copy()
         stiffness[:size, :size], mass[:size, :size] = _body_matrices(bodies)

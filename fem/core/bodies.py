@@ -14,7 +14,8 @@ Each kind is one function in `BODIES`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import compress
 from math import pi
 from typing import Any
 
@@ -61,9 +62,14 @@ class Body:
     def size(self) -> int:
         return len(self.dofs)
 
-    def of_first(self, count: int) -> Array:
-        """Which shapes stay where only the first `count` dry modes of its beam are taken, shape (shapes,)."""
-        return np.array([not dof.is_elastic or int(dof.split()[1]) <= count for dof in self.dofs], dtype=bool)
+    def of_first(self, count: int) -> tuple[Body, Array]:
+        """The same with only the first dry modes of its beam, and which shapes these are, shape (shapes,)."""
+        kept = np.array([not dof.is_elastic or int(dof.split()[1]) <= count for dof in self.dofs], dtype=bool)
+        both, (dofs, parities) = np.ix_(kept, kept), (tuple(compress(own, kept)) for own in (self.dofs, self.parities))
+        own = {"stiffness": self.stiffness[kept], "bending": self.bending[kept]}
+        return replace(
+            self, dofs=dofs, parities=parities, mass=self.mass[both], motions=self.motions[both], **own
+        ), kept
 
 
 def beam(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:

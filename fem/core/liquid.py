@@ -13,7 +13,6 @@ Arrays of unknowns hold those of this process by rows; columns are all of them, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -38,23 +37,16 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Trace:
+class Trace(NamedTuple):
     """The unknowns of ψ on a surface of one layer, on every process."""
 
     facets: Indices  # global numbers of the unknowns on each facet, along it, shape (facets, unknowns)
     points: Array  # their coordinates, shape (facets, unknowns, dim)
 
-    @property
-    def unknowns(self) -> Indices:
-        """Global numbers of the unknowns in the order of the facets, each once."""
+    def unknowns(self, other: Trace | None = None) -> Indices:
+        """Numbers of the unknowns in the order of the facets, each once, or of those of another layer there."""
         _, first = np.unique(self.facets, return_index=True)
-        return self.facets.ravel()[np.sort(first)]
-
-    def matched(self, other: Trace) -> Indices:
-        """The unknowns of another layer at the same points, in the order of `unknowns`."""
-        _, first = np.unique(self.facets, return_index=True)
-        return other.facets.ravel()[np.sort(first)]
+        return (other or self).facets.ravel()[np.sort(first)]
 
 
 Zero = tuple[str, ...]
@@ -137,7 +129,7 @@ class Liquid:
             for parts in zip(*self.comm.allgather((numbers, points.reshape(*dofs.shape, dim))), strict=True)
         )
         order = np.lexsort(np.round(points.mean(axis=1), 12).T[::-1])
-        return Trace(facets=facets[order], points=points[order])
+        return Trace(facets[order], points[order])
 
     def conditions(self, zero: Zero) -> Conditions:
         """The conditions ψ = 0 on the facets of some names (collective)."""
@@ -206,13 +198,13 @@ class Liquid:
 
 
 class ShapeSpace:
-    """Displacements v on wetted facets, and their loads ∫v·n q.
+    """Displacements v on wetted facets, and their loads ∫v·n q (collective).
 
     `points`: of each name, where v is asked for, and on which side of the facet the liquid is there along x, −1 or 1;
-    on every process."""
+    on every process.
+    """
 
     def __init__(self, liquid: Liquid, names: Sequence[str]) -> None:
-        """Assemble the loads of a unit of v at each point (collective)."""
         domain, topology = liquid.mesh.mesh, liquid.mesh.mesh.topology
         self._dim = domain.geometry.dim
         present = [name for name in names if liquid.has(name)]
@@ -223,7 +215,7 @@ class ShapeSpace:
         space = fem.functionspace(domain, liquid.forms.shapes)
         facets = np.unique(np.concatenate([liquid.mesh.facets(name) for name in present]))
         form = form_on_facets(liquid.forms.normal_load, [liquid.space, space], domain, MARKED, facets)
-        self._matrix = _rows(_assembled(form))
+        matrix = _rows(_assembled(form))
         coordinates = space.tabulate_dof_coordinates()[:, : self._dim]
         for name in present:
             cells, local = _cells_at(domain, liquid.mesh.facets(name))
@@ -240,6 +232,9 @@ class ShapeSpace:
             numbers, first = np.unique(numbers, return_index=True)
             self.points[name] = points[first], of_sides[first]
             self._columns[name] = (self._dim * numbers[:, None] + np.arange(self._dim)).ravel()
+        used = np.unique(np.concatenate(list(self._columns.values())))
+        self._matrix = matrix[:, used]
+        self._columns = {name: np.searchsorted(used, columns) for name, columns in self._columns.items()}
 
     def load(self, name: str, displacements: Array) -> Array:
         """Loads, rows of this process, of displacements at the points of a name, shape (shapes, dim, points)."""

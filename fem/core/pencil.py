@@ -103,12 +103,12 @@ class Pencil:
 
     def of_first(self, counts: Sequence[int]) -> Pencil:
         """The same with only the first dry modes of each body of the tank."""
-        of_bodies = [body.of_first(counts[body.index]) for body in self.bodies]
-        kept = np.concatenate([*of_bodies, np.ones(self.size - self.body_size, dtype=bool)])
+        first = [body.of_first(counts[body.index]) for body in self.bodies]
+        kept = np.concatenate([*(own for _, own in first), np.ones(self.size - self.body_size, dtype=bool)])
         both = np.ix_(kept, kept)
         return replace(
             self,
-            bodies=tuple(_restricted(body, own) for body, own in zip(self.bodies, of_bodies, strict=True)),
+            bodies=tuple(body for body, _ in first),
             stiffness=self.stiffness[both],
             mass=self.mass[both],
             added_mass=self.added_mass[both],
@@ -154,18 +154,6 @@ class Pencil:
         )
 
 
-def _restricted(body: Body, kept: Array) -> Body:
-    return replace(
-        body,
-        dofs=tuple(dof for dof, stays in zip(body.dofs, kept, strict=True) if stays),
-        parities=tuple(parity for parity, stays in zip(body.parities, kept, strict=True) if stays),
-        stiffness=body.stiffness[kept],
-        bending=body.bending[kept],
-        mass=body.mass[np.ix_(kept, kept)],
-        motions=body.motions[np.ix_(kept, kept)],
-    )
-
-
 def _body_matrices(bodies: Sequence[Body]) -> tuple[Array, Array]:
     if not bodies:
         return np.empty((0, 0)), np.empty((0, 0))
@@ -187,7 +175,7 @@ class Loads:
         """Loads and stiffness of the unknowns of a surface, and their numbers among those of ψ."""
         liquid = self.liquid
         trace = liquid.trace(surface.name, surface.below)
-        unknowns = trace.unknowns
+        unknowns = trace.unknowns()
         starts, columns, values = liquid.surface(surface.name).getValuesCSR()
         rows = np.repeat(np.arange(liquid.owned), np.diff(starts))
 
@@ -207,7 +195,7 @@ class Loads:
         restoring[own] = load[np.searchsorted(self._rows, unknowns[own] - liquid.first)]
         liquid.comm.Allreduce(MPI.IN_PLACE, restoring)
         if surface.above is not None:
-            load = load - block(self._rows, trace.matched(liquid.trace(surface.name, surface.above)))
+            load = load - block(self._rows, trace.unknowns(liquid.trace(surface.name, surface.above)))
         return load, 0.5 * surface.jump * (restoring + restoring.T), unknowns
 
     def pencil(self, bodies: tuple[Body, ...], zero: Zero) -> Pencil:

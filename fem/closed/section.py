@@ -28,6 +28,7 @@ import xarray as xr
 from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.closed.discretization import (
     MOST_MODES_TO_TONE,
@@ -297,13 +298,8 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
     geometry = section.geometry_errors(values, len(found))
     dry: Array = np.zeros(len(found))
     if section.tank.elastic:
-        fewer = (
-            {
-                key: part.pencil.of_first([ceil(fraction * shapes) for shapes in own.dry_modes])
-                for key, part in modes.parts.items()
-            }
-            for fraction in (0.5, 0.25)
-        )
+        counts = ([ceil(fraction * shapes) for shapes in own.dry_modes] for fraction in (0.5, 0.25))
+        fewer = ({key: part.pencil.of_first(first) for key, part in modes.parts.items()} for first in counts)
         dry = remainder(found, *map(values, fewer), rates=(0.01, 0.5))
     # An error of λ is twice that of ω.
     errors = 0.5 * np.array([liquid, dry, geometry, section.rounding(found)]).reshape(len(CAUSES), -1)
@@ -403,24 +399,14 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
     pencils = section.pencils(section.discretization.degree)
     matrix = whole(pencils)
     diagonal = np.diag(matrix).copy()
-    liquid = remainder(*sum(section.liquid_energies({key: motions(key, own) for key, own in pencils.items()}).values()))
+    energies = section.liquid_energies({key: motions(key, own) for key, own in pencils.items()})
+    liquid = remainder(*np.sum(list(energies.values()), axis=0))
     geometry = section.geometry_errors(lambda pencils: np.diag(whole(pencils)).copy(), len(diagonal))
-    scales = np.array(
-        [
-            tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)
-            for index in tank.rigid
-            for dof in bodies[index].dofs
-        ]
-    )
-    moves = diagonal > _NO_LIQUID * scales
+    own = [(tank.hulls[index].smallest_extent, dof) for index in tank.rigid for dof in bodies[index].dofs]
+    moves = diagonal > _NO_LIQUID * np.array([size ** (4 if dof.is_rotation else 2) for size, dof in own])
     rounding = np.full(len(diagonal), rounding_error(section.discretization.degree, tank.depth))
     errors = np.array([liquid, np.zeros_like(liquid), geometry, rounding])[:, moves]
-    turns = np.zeros_like(matrix)
-    first = 0
-    for index in tank.rigid:
-        size = bodies[index].size
-        turns[first : first + size, first : first + size] = bodies[index].motions
-        first += size
+    turns = block_diag(*(bodies[index].motions for index in tank.rigid))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
     return 0.5 * (physical + physical.T), errors
 
@@ -542,14 +528,8 @@ def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) ->
     )
     added = None
     if limit is not None and limit.added_mass is not None:
-        parts: list[Array] = [np.empty(0)]
-        first = 0
-        for index in tank.rigid:
-            motions = bodies[index].motions
-            own = slice(first, first + len(motions))
-            parts.append(np.diag(motions.T @ limit.added_mass[own, own] @ motions))
-            first += len(motions)
-        added = np.concatenate(parts)
+        turns = block_diag(*(bodies[index].motions for index in tank.rigid))
+        added = np.diag(turns.T @ limit.added_mass @ turns)
     moved = float_modes(bodies, tank.rigid, found.values, amplitudes, added, complete=found.modes.complete)
     judged = {
         *range(min(asked, len(found.values))),

@@ -65,11 +65,13 @@ class Body:
     def of_first(self, count: int) -> tuple[Body, Array]:
         """The same with only the first dry modes of its beam, and which shapes these are, shape (shapes,)."""
         kept = np.array([not dof.is_elastic or int(dof.split()[1]) <= count for dof in self.dofs], dtype=bool)
-        both, (dofs, parities) = np.ix_(kept, kept), (tuple(compress(own, kept)) for own in (self.dofs, self.parities))
-        own = {"stiffness": self.stiffness[kept], "bending": self.bending[kept]}
-        return replace(
-            self, dofs=dofs, parities=parities, mass=self.mass[both], motions=self.motions[both], **own
-        ), kept
+        own: dict[str, Any] = {
+            "stiffness": self.stiffness[kept],
+            "bending": self.bending[kept],
+            "mass": self.mass[kept][:, kept],
+        }
+        own |= {"dofs": tuple(compress(self.dofs, kept)), "parities": tuple(compress(self.parities, kept))}
+        return replace(self, motions=self.motions[kept][:, kept], **own), kept
 
 
 def beam(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:

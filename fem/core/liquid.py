@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import basix
 import numpy as np
@@ -78,7 +78,7 @@ class Liquid:
         self._conditions: dict[Zero, Conditions] = {}
         self._restrictions: dict[int, sp.csc_array] = {}
         self._matrix: PETSc.Mat | None = None
-        self._solver: PETSc.KSP | None = None
+        self._solver: Any = None
         self._factorized: Zero | None = None
         constants = {} if self.forms.transverse is None else {self.forms.transverse: geometry.transverse}
         self.laplace = _assembled(form_in_cells(self.forms.laplace, [self.space] * 2, domain, constants))

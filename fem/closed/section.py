@@ -116,7 +116,7 @@ class DiscreteSection:
 
     @cached_property
     def outline(self) -> Outline:
-        return tank_outline(self.tank, self.discretization.sizes, half=self.half, released=self.released)
+        return tank_outline(self.tank, self.discretization.sizes, half=self.half)
 
     @property
     def is_curved(self) -> bool:

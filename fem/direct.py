@@ -10,12 +10,16 @@ from hydroelastic.fem.solver_error import EigenSolverError
 _PIVOT = 81
 
 
-def direct_solver(matrix: PETSc.Mat) -> PETSc.KSP:
-    """Cholesky factorization of a symmetric positive definite matrix (collective)."""
+def direct_solver(matrix: PETSc.Mat, solver: PETSc.KSP | None = None) -> PETSc.KSP:
+    """Cholesky factorization of a symmetric positive definite matrix (collective).
+
+    A solver of the same matrix with other entries keeps its symbolic factorization.
+    """
     matrix.setOption(PETSc.Mat.Option.SPD, True)
-    solver = PETSc.KSP().create(matrix.comm)
+    if solver is None:
+        solver = PETSc.KSP().create(matrix.comm)
+        configure_direct(solver)
     solver.setOperators(matrix)
-    configure_direct(solver)
     try:
         solver.setUp()
         failed = solver.getPC().getFailedReason() == PETSc.PC.FailedReason.FACTOR_NUMERIC_ZEROPIVOT

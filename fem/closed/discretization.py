@@ -43,31 +43,21 @@ _FINER = 0.65
 
 @dataclass(frozen=True, kw_only=True)
 class Discretization:
-    """What the loop refines.
+    """What the loop refines."""
 
-    Attributes:
-        degree: of ψ.
-        sizes: largest cells on each piece of the still levels, along a float's contour; in tank lengths.
-        bulk: largest cells anywhere.
-        near: size of cells at singular points, in parts of the distance to the next corner.
-        geometry_degree: of curved cells.
-        dry_modes: number of those of each beam, 0 for floats.
-    """
-
-    degree: int
+    degree: int  # of ψ
+    # largest cells on each piece of the still levels, along a float's contour; in tank lengths
     sizes: tuple[float, ...]
-    bulk: float
-    near: float
-    geometry_degree: int
-    dry_modes: tuple[int, ...]
+    bulk: float  # largest cells anywhere
+    near: float  # size of cells at singular points, in parts of the distance to the next corner
+    geometry_degree: int  # of curved cells
+    dry_modes: tuple[int, ...]  # number of those of each beam, 0 for floats
 
     @property
-    def cells(self) -> tuple[object, ...]:
-        """What the mesh depends on."""
-        return self.sizes, self.bulk, self.near, self.geometry_degree
+    def triangles(self) -> tuple[object, ...]:
+        return self.sizes, self.bulk, self.near
 
     def refined(self, causes: Mapping[str, float]) -> Discretization | None:
-        """A finer one for all causes above a part of the tolerance."""
         found = self
         if causes["dry_modes"] > _NEGLIGIBLE:
             factor = min(max(1.3, (2.0 * causes["dry_modes"]) ** (1.0 / 6.0)), 2.0)
@@ -92,17 +82,9 @@ class Discretization:
 
 @dataclass(frozen=True, kw_only=True)
 class SoughtModes:
-    """The modes to solve for.
-
-    Attributes:
-        modes: their number.
-        accurate: number of those that must be accurate; the others, above, identify a tone.
-        reaches_tones: of each beam, whether its first elastic tone is expected among them.
-    """
-
-    modes: int
-    accurate: int
-    reaches_tones: tuple[bool, ...]
+    modes: int  # their number
+    accurate: int  # number of those that must be accurate; the others, above, identify a tone
+    reaches_tones: tuple[bool, ...]  # of each beam, whether its first elastic tone is expected among them
 
 
 def sought_modes(tank: Tank, modes: int) -> SoughtModes:
@@ -178,7 +160,7 @@ def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
             for piece in level.pieces
         ],
     )
-    return replace(found, degree=min(found.degree + 1, HIGHEST_DEGREE))
+    return found
 
 
 def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import atan2, inf, pi
 from typing import NamedTuple
@@ -59,48 +59,32 @@ def released_surfaces(tank: Tank, *, released: bool) -> tuple[str, ...]:
     return (*top, AXIS) if tank.geometry.is_revolved and tank.geometry.order else top
 
 
-def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool = False, released: bool = False) -> Outline:
-    """Return the outline of a tank, or of its left half.
-
-    Args:
-        tank: dimensionless.
-        sizes: largest cells on each piece of the still levels, along a float's contour.
-        half: whether of the half alone.
-        released: whether in the limit of infinite frequency, where cells on both sides of an interface have other
-            singular points.
-    """
-    contours: dict[int | None, float] = {
-        piece.body: size for piece, size in zip(tank.pieces, sizes, strict=True) if piece.body in tank.hulls
-    }
-    builder = _Builder(
-        tank=tank, sizes=sizes, contours=contours, right=MIDDLE if half else 1.0, half=half, released=released
-    )
+def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool) -> Outline:
+    builder = _Builder(tank, sizes, half)
     regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
     return Outline(curves=tuple(builder.curves), regions=tuple(regions))
 
 
-@dataclass(kw_only=True)
 class _Builder:
-    tank: Tank
-    sizes: tuple[float, ...]
-    contours: dict[int | None, float]
-    right: float
-    half: bool
-    released: bool
-    curves: list[Curve] = field(default_factory=list)
-    _numbers: dict[tuple[str, Point, Point], int] = field(default_factory=dict)
+    def __init__(self, tank: Tank, sizes: tuple[float, ...], half: bool) -> None:
+        self.tank, self.half, self.right = tank, half, MIDDLE if half else 1.0
+        pieces = [(level.below, piece) for level in tank.levels for piece in level.pieces]
+        self.sizes = dict(zip(pieces, sizes, strict=True))
+        self.contours = {piece.body: size for (_, piece), size in self.sizes.items() if piece.body in tank.hulls}
+        self.curves: list[Curve] = []
+        self._numbers: dict[tuple[str, Point, Point], int] = {}
 
     def layer(self, number: int) -> Iterator[Region]:
         """The regions of one layer: one, or several beside each other where thin floats split it."""
         name = layer_names(self.tank)[number]
         splits = self._splits(number)
         marks = tuple(splits)
-        floor, ceiling = self._floor(number, marks), self._ceiling(number, marks)
+        floor, ceiling = self._floor(number, marks), self._level(self.tank.levels[number], marks, upper_side=False)
         sides = [0.0, *(x for x in marks if x < self.right), self.right]
         for left, right in pairwise(sides):
             below, above = self._between(floor, left, right), self._between(ceiling, left, right)
-            up = self._side(number, right, self._last(below), self._last(above), splits)
-            down = self._side(number, left, self._first(below), self._first(above), splits)
+            up = self._side(number, right, self._ends(below[-1])[1], self._ends(above[-1])[1], splits)
+            down = self._side(number, left, self._ends(below[0])[0], self._ends(above[0])[0], splits)
             yield Region(name=name, loop=(*below, *up, *_reversed(above), *_reversed(down)))
 
     def _splits(self, number: int) -> dict[float, list[int]]:
@@ -125,55 +109,43 @@ class _Builder:
         stops = [0.0, *(x for x in marks if x < self.right), self.right]
         return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
 
-    def _ceiling(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
-        return self._level(self.tank.levels[number], marks, upper_side=False)
-
     def _level(self, level: StillLevel, marks: tuple[float, ...], *, upper_side: bool) -> list[Directed]:
         # Both layers must divide the level at the slits of either.
         other = level.above if not upper_side else level.below
         stops = sorted({*marks, *(self._splits(other) if other is not None else ())})
-        first = sum(len(lower.pieces) for lower in self.tank.levels[: level.below])
         path: list[Directed] = []
-        for place, piece in enumerate(level.pieces, first):
-            if piece.start >= self.right:
-                break
-            hull = self.tank.hulls.get(piece.body) if piece.body is not None else None
-            if hull is not None:
-                path += self._contour(piece, hull, stops, upper_side=upper_side)
-            else:
-                path += self._flat(level, piece, stops, self.sizes[place])
+        for piece in level.pieces:
+            if piece.start < self.right and piece.body in self.tank.hulls:
+                path += self._contour(piece, self.tank.hulls[piece.body], stops, upper_side=upper_side)
+            elif piece.start < self.right:
+                path += self._flat(level, piece, stops)
         return path
 
-    def _flat(self, level: StillLevel, piece: Piece, stops: list[float], size: float) -> list[Directed]:
-        end = min(piece.end, self.right)
-        nodes = self.tank.nodes_of(piece.body) if piece.body is not None else ()
-        marks = [piece.start, *(x for x in sorted({*stops, *nodes}) if piece.start < x < end), end]
-        name, cut = self._condition(level, piece)
-        return [
-            (self._curve(name, (start, level.height), (stop, level.height), size=size, cut=cut), True)
-            for start, stop in pairwise(marks)
-        ]
-
-    def _condition(self, level: StillLevel, piece: Piece) -> tuple[str, bool]:
-        """Physical name of a piece, and whether the liquids above and below it have separate nodes."""
+    def _flat(self, level: StillLevel, piece: Piece, stops: list[float]) -> list[Directed]:
+        end, size, y, cut = (
+            min(piece.end, self.right),
+            self.sizes[level.below, piece],
+            level.height,
+            level.above is not None,
+        )
+        name = INTERFACE if cut else LID if level.kind == "rigid" else FREE_SURFACE
+        nodes: dict[float, float] = {}
         if piece.body is not None:
-            return body_name(piece.body + 1), level.above is not None
-        if level.above is not None:
-            return INTERFACE, True
-        return (LID if level.kind == "rigid" else FREE_SURFACE), False
+            name, nodes = body_name(piece.body + 1), self.tank.nodes_of(piece.body)
+        marks = [piece.start, *(x for x in sorted({*stops, *nodes}) if piece.start < x < end), end]
+        return [(self._curve(name, (a, y), (b, y), size=size, cut=cut), True) for a, b in pairwise(marks)]
 
     def _contour(self, piece: Piece, hull: Hull, stops: list[float], *, upper_side: bool) -> list[Directed]:
         assert piece.body is not None
         if hull.is_thin:
             return []
         low, high = hull.bounds[:2]
-        on_axis = self.tank.geometry.is_revolved and low < 0.0
         if any(low < x < high for x in stops):
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
         arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
             arcs = _beside(arcs, self.right, -1.0)
-        if on_axis:
+        if self.tank.geometry.is_revolved and low < 0.0:
             arcs = _beside(arcs, 0.0, 1.0)
         size, name = self.contours[piece.body], body_name(piece.body + 1)
         path = [
@@ -186,7 +158,8 @@ class _Builder:
 
     def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
         """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
-        name = "" if 0.0 < x < self.right else self._left if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
+        left, right = AXIS if self.tank.geometry.is_revolved else LEFT_WALL, SYMMETRY_PLANE if self.half else RIGHT_WALL
+        name = "" if 0.0 < x < self.right else left if x == 0.0 else right
         pieces = [(bottom, top, name)]
         # From the floor up: one slit may begin at the floor, another end at the ceiling.
         for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
@@ -201,33 +174,15 @@ class _Builder:
             pieces += [] if hangs else [(last, end, name)]
         # A shaped bed may rise to the level, and leave no wall.
         pieces = [piece for piece in pieces if piece[0] != piece[1]]
-        return [
-            (
-                self._curve(
-                    part, start, end, cut=0.0 < x < self.right and bool(part), size=self._slit_size(part, start, end)
-                ),
-                True,
-            )
-            for start, end, part in pieces
-        ]
-
-    @property
-    def _left(self) -> str:
-        return AXIS if self.tank.geometry.is_revolved else LEFT_WALL
-
-    def _slit_size(self, name: str, start: Point, end: Point) -> float:
-        number = body_number(name)
-        return inf if number is None else min(0.5 * (end[1] - start[1]), self.contours[number - 1])
+        path: list[Directed] = []
+        for start, end, part in pieces:
+            body = body_number(part)
+            size = inf if body is None else min(0.5 * (end[1] - start[1]), self.contours[body - 1])
+            path.append((self._curve(part, start, end, cut=0.0 < x < self.right and bool(part), size=size), True))
+        return path
 
     def _curve(
-        self,
-        name: str,
-        start: Point,
-        end: Point,
-        *,
-        arc: Arc | None = None,
-        size: float = inf,
-        cut: bool = False,
+        self, name: str, start: Point, end: Point, *, arc: Arc | None = None, size: float = inf, cut: bool = False
     ) -> int:
         key = name, start, end
         if key not in self._numbers:
@@ -238,22 +193,11 @@ class _Builder:
 
     def _between(self, path: list[Directed], left: float, right: float) -> tuple[Directed, ...]:
         """The part of a path from x = left to x = right, both of which are ends of curves."""
-        return tuple(
-            directed
-            for directed in path
-            if left <= min(self._ends(directed)[0][0], self._ends(directed)[1][0])
-            and max(self._ends(directed)[0][0], self._ends(directed)[1][0]) <= right
-        )
+        return tuple(own for own in path if all(left <= x <= right for x, _ in self._ends(own)))
 
     def _ends(self, directed: Directed) -> tuple[Point, Point]:
         curve, forward = self.curves[directed[0]], directed[1]
         return (curve.start, curve.end) if forward else (curve.end, curve.start)
-
-    def _first(self, path: tuple[Directed, ...]) -> Point:
-        return self._ends(path[0])[0]
-
-    def _last(self, path: tuple[Directed, ...]) -> Point:
-        return self._ends(path[-1])[1]
 
 
 def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
@@ -279,18 +223,13 @@ def _beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
         if min(start, end) >= 0.0:
             kept.append(arc)
         elif max(start, end) > 0.0:
-            t = _meets(arc, x)
+            t = root(lambda t: float(arc.curve(np.array([t]))[0, 0]) - x, 0.0, 1.0)  # noqa: B023
             on_plane = x, float(arc.curve(np.array([t]))[0, 1])
             if start > 0.0:
                 kept.append(arc.part(0.0, t, start=arc.start, end=on_plane))
             else:
                 kept.append(arc.part(t, 1.0, start=on_plane, end=arc.end))
     return tuple(kept)
-
-
-def _meets(arc: Arc, x: float) -> float:
-    """Parameter at which an arc that begins and ends on different sides of a vertical line crosses it."""
-    return root(lambda t: float(arc.curve(np.array([t]))[0, 0]) - x, 0.0, 1.0)
 
 
 # Rounding of the corners of a float on the mirror plane, in tank lengths.
@@ -346,7 +285,7 @@ class SingularPoint(NamedTuple):
 
 def singular_points(tank: Tank, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
     """Return the singular points of a tank, or of its left half, up to exponents that cells do not feel."""
-    outline = tank_outline(tank, (inf,) * len(tank.pieces), half=half, released=released)
+    outline = tank_outline(tank, (inf,) * len(tank.pieces), half=half)
     zero, kinks, smooth = released_surfaces(tank, released=released), _kinks(tank, released=released), _guided(tank)
     points = []
     for point, around in _wedges(outline).items():
@@ -359,8 +298,7 @@ def singular_points(tank: Tank, *, half: bool, released: bool) -> tuple[Singular
     return tuple(points)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Wedge:
+class _Wedge(NamedTuple):
     """A region's wedge at a point, between the curve of its boundary that leaves the point and the one that arrives."""
 
     leaving: int
@@ -386,8 +324,7 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
     return atan2(y_near - y, x_near - x)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Sector:
+class _Sector(NamedTuple):
     names: tuple[str, str]
     angle: float
     crossed: bool

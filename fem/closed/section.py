@@ -28,6 +28,7 @@ import xarray as xr
 from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.closed.discretization import (
     MOST_MODES_TO_TONE,
@@ -39,7 +40,7 @@ from hydroelastic.fem.closed.discretization import (
     sought_modes,
 )
 from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
-from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, float_modes
+from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, first_elastic, float_modes
 from hydroelastic.fem.core.adaptive import largest, solve_adaptive
 from hydroelastic.fem.core.bodies import Body, extension, moving_bodies
 from hydroelastic.fem.core.estimate import remainder
@@ -84,52 +85,41 @@ class DiscreteSection:
     def __init__(
         self, comm: MPI.Comm, tank: Tank, discretization: Discretization, *, half: bool, released: bool = False
     ) -> None:
-        """Nothing is made before it is asked for.
-
-        Args:
-            comm: processes.
-            tank: dimensionless.
-            discretization: of it.
-            half: whether of its left half.
-            released: whether in the limit of infinite frequency.
-        """
         self.comm, self.tank, self.discretization, self.half, self.released = comm, tank, discretization, half, released
+        self._liquids: dict[int, Liquid] = {}
         self._pencils: dict[int, Pencils] = {}
 
-    def refined(self, discretization: Discretization) -> DiscreteSection:
+    def changed(self, discretization: Discretization) -> DiscreteSection:
         """Another discretization, with what it has in common with this one."""
+        if discretization == self.discretization:
+            return self
         other = DiscreteSection(self.comm, self.tank, discretization, half=self.half, released=self.released)
-        if discretization.cells == self.discretization.cells:
-            vars(other).update(
-                {name: vars(self)[name] for name in ("mesh", "_triangles", "outline") if name in vars(self)}
-            )
-            if discretization.dry_modes == self.discretization.dry_modes:
-                other._pencils = self._pencils
+        if discretization.triangles == self.discretization.triangles:
+            alike = discretization.geometry_degree == self.discretization.geometry_degree
+            shared = {"_triangles", "outline", *(("mesh", "_liquids") if alike else ())}
+            if alike and discretization.dry_modes == self.discretization.dry_modes:
+                shared.add("_pencils")
+            vars(other).update({name: value for name, value in vars(self).items() if name in shared})
         return other
 
     @cached_property
     def points(self) -> tuple[SingularPoint, ...]:
-        """The singular points."""
         return singular_points(self.tank, half=self.half, released=self.released)
 
     @cached_property
     def mesh(self) -> TankMesh:
-        """The mesh (collective)."""
         return distributed(self.comm, self._noded)
 
     @property
     def mesh_degree(self) -> int:
-        """Degree of the cells' geometry."""
         return coordinate_degree(self.mesh.mesh)
 
     @cached_property
     def outline(self) -> Outline:
-        """The outline with its sizes."""
-        return tank_outline(self.tank, self.discretization.sizes, half=self.half, released=self.released)
+        return tank_outline(self.tank, self.discretization.sizes, half=self.half)
 
     @property
     def is_curved(self) -> bool:
-        """Whether cells follow curves."""
         return any(curve.path is not None for curve in self.outline.curves)
 
     @cached_property
@@ -149,36 +139,47 @@ class DiscreteSection:
         degree = max([own.geometry_degree if self.is_curved else 1, *powers.values()])
         return self._triangles.noded(powers, degree)
 
+    def liquid(self, degree: int) -> Liquid:
+        """ψ of a degree (collective)."""
+        if degree not in self._liquids:
+            # A and all that is made of it are linear in the densities: these contain the factor of the geometry.
+            tank, measure = self.tank, self.tank.geometry.measure
+            densities = [measure * layer.density for layer in tank.layers]
+            self._liquids[degree] = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
+        return self._liquids[degree]
+
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
-        if degree not in self._pencils:
-            self._pencils[degree] = self._made(degree)
-        return self._pencils[degree]
-
-    def _made(self, degree: int) -> Pencils:
+        if degree in self._pencils:
+            return self._pencils[degree]
         tank, counts, measure = self.tank, self.discretization.dry_modes, self.tank.geometry.measure
-        # A and all that is made of the liquid are linear in the densities: these contain the factor of the geometry.
-        densities = [measure * layer.density for layer in tank.layers]
-        liquid = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
         surfaces = [
             Surface(FREE_SURFACE if level.above is None else INTERFACE, level.below, level.above, measure * level.jump)
             for level in tank.levels
             if level.moves and not (self.released and level.above is None)
         ]
-        loads = Loads(liquid, surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
+        loads = Loads(self.liquid(degree), surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
         zero = released_surfaces(tank, released=self.released)
-        pencils: dict[Parity | None, Pencil]
         if self.half:
             counts = shapes_of_twins(tank, counts)
-            planes = {parity: (*zero, SYMMETRY_PLANE) if parity == "antisymmetric" else zero for parity in PARITIES}
-            pencils = {parity: loads.pencil(moving_bodies(tank, counts, parity), planes[parity]) for parity in PARITIES}
-        else:
-            pencils = {None: loads.pencil(moving_bodies(tank, counts, None), zero)}
-        return {key: pencil.released([INTERFACE]) for key, pencil in pencils.items()} if self.released else pencils
+        pencils: dict[Parity | None, Pencil] = {}
+        for part in self.parts:
+            plane = (SYMMETRY_PLANE,) if part == "antisymmetric" else ()
+            pencil = loads.pencil(moving_bodies(tank, counts, part), (*zero, *plane))
+            pencils[part] = pencil.released([INTERFACE]) if self.released else pencil
+        self._pencils[degree] = pencils
+        return pencils
+
+    @cached_property
+    def parts(self) -> tuple[Parity | None, ...]:
+        """The symmetries to solve: in the limit, where no float moves, those of first dry modes."""
+        if not self.half or not self.released or self.tank.rigid:
+            return PARITIES if self.half else (None,)
+        first = [first_elastic(self.bodies, index)[1] for index in self.tank.elastic]
+        return tuple(parity for parity in PARITIES if self.extensions[parity][first].any())
 
     @cached_property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies of the whole tank."""
         counts = self.discretization.dry_modes
         return moving_bodies(self.tank, shapes_of_twins(self.tank, counts) if self.half else counts, None)
 
@@ -187,27 +188,26 @@ class DiscreteSection:
         """From the body unknowns of each part to those of the whole tank."""
         return {parity: extension(self.tank, self.bodies, parity) for parity in (PARITIES if self.half else (None,))}
 
-    def other_geometry(self) -> DiscreteSection:
-        """The same with cells of another degree."""
-        own = self.discretization
-        changed = replace(own, geometry_degree=own.geometry_degree - 2)
-        other = DiscreteSection(self.comm, self.tank, changed, half=self.half, released=self.released)
-        vars(other).update({name: vars(self)[name] for name in ("_triangles", "outline") if name in vars(self)})
-        return other
-
-    def errors_of(self, finest: Array, values: Callable[[Pencils], Array]) -> tuple[Array, Array]:
-        """Relative errors of some values by the liquid and by the geometry, from values of neighbours (collective)."""
+    def liquid_energies(self, vectors: Mapping[Parity | None, Array]) -> dict[Parity | None, Array]:
+        """ζᵀM_aζ of vectors of each part that keep the volumes, with ψ of this degree and of the two below, shape (3,
+        vectors) (collective)."""
         degree = self.discretization.degree
-        liquid = remainder(finest, *(values(self.pencils(degree - less)) for less in (1, 2)))
-        geometry = np.zeros(len(finest))
-        if self.is_curved:
-            low = min(degree, _DEGREE_OF_GEOMETRY)
-            here, there = values(self.pencils(low)), values(self.other_geometry().pencils(low))
-            geometry = np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here))
-        return liquid, geometry
+        pencils, coarser = self.pencils(degree), (None, self.liquid(degree - 1), self.liquid(degree - 2))
+        return {
+            key: np.array([pencils[key].added_energies(own, one) for one in coarser]) for key, own in vectors.items()
+        }
+
+    def geometry_errors(self, values: Callable[[Pencils], Array], count: int) -> Array:
+        """Relative differences of some values, between cells of two degrees of the geometry (collective)."""
+        if not self.is_curved:
+            return np.zeros(count)
+        own = self.discretization
+        low = min(own.degree, _DEGREE_OF_GEOMETRY)
+        other = self.changed(replace(own, geometry_degree=own.geometry_degree - 2))
+        here, there = values(self.pencils(low)), values(other.pencils(low))
+        return np.asarray(np.abs(here - there) / np.where(here == 0.0, 1.0, np.abs(here)))
 
     def rounding(self, values: Array) -> Array:
-        """Relative rounding of λ."""
         lowest = values[values > 0.0].min(initial=inf)
         return (
             2.0 * rounding_error(self.discretization.degree, self.tank.depth)
@@ -231,29 +231,17 @@ def distributed(comm: MPI.Comm, make: Callable[[], NodedMesh]) -> TankMesh:
 
 @dataclass(frozen=True, kw_only=True)
 class SectionModes:
-    """Modes on one discretization.
-
-    Attributes:
-        section: the discretization.
-        modes: of all parts.
-        errors: relative errors of ω, or of a growth rate, by cause, shape (causes, modes).
-        judged: modes whose errors are to keep the tolerance.
-        tones: of each elastic body.
-        float_modes: of each restored motion of floats.
-        missing: tones that may lie above the modes.
-    """
-
-    section: DiscreteSection
-    modes: MergedModes[Parity | None]
-    errors: Array
+    section: DiscreteSection  # the discretization
+    modes: MergedModes[Parity | None]  # of all parts
+    errors: Array  # relative errors of ω, or of a growth rate, by cause, shape (causes, modes)
+    # modes whose errors are to keep the tolerance
     judged: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
-    tones: tuple[ElasticTone, ...] = ()
-    float_modes: tuple[FloatMode, ...] = ()
-    missing: int = 0
+    tones: tuple[ElasticTone, ...] = ()  # of each elastic body
+    float_modes: tuple[FloatMode, ...] = ()  # of each restored motion of floats
+    missing: int = 0  # tones that may lie above the modes
 
     @property
     def total(self) -> Array:
-        """The sum of all causes."""
         return np.asarray(self.errors.sum(axis=0))
 
     @property
@@ -268,7 +256,6 @@ class SectionModes:
 
     @cached_property
     def values(self) -> Array:
-        """λ of the modes that oscillate."""
         return self.modes.values[self.modes.growing :]
 
     @cached_property
@@ -291,7 +278,6 @@ class SectionModes:
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """The surfaces under gravity."""
         return tuple(surface for surface, _ in next(iter(self.modes.parts.values())).pencil.surfaces)
 
 
@@ -305,16 +291,15 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
         return modes.of_parts(found)
 
     found = modes.values
-    liquid, geometry = section.errors_of(found, values)
+    energies = section.liquid_energies({key: part.vectors for key, part in modes.parts.items()})
+    liquid = modes.of_parts(
+        {key: remainder(*(part.body_energies + energies[key])) for key, part in modes.parts.items()}
+    )
+    geometry = section.geometry_errors(values, len(found))
     dry: Array = np.zeros(len(found))
     if section.tank.elastic:
-        fewer = (
-            {
-                key: part.pencil.of_first([ceil(fraction * shapes) for shapes in own.dry_modes])
-                for key, part in modes.parts.items()
-            }
-            for fraction in (0.5, 0.25)
-        )
+        counts = ([ceil(fraction * shapes) for shapes in own.dry_modes] for fraction in (0.5, 0.25))
+        fewer = ({key: part.pencil.of_first(first) for key, part in modes.parts.items()} for first in counts)
         dry = remainder(found, *map(values, fewer), rates=(0.01, 0.5))
     # An error of λ is twice that of ω.
     errors = 0.5 * np.array([liquid, dry, geometry, section.rounding(found)]).reshape(len(CAUSES), -1)
@@ -322,30 +307,20 @@ def estimated_modes(section: DiscreteSection, count: int) -> SectionModes:
 
 
 def _values(pencil: Pencil, count: int, growing: int) -> Array:
-    """The first λ of a part; NaN where there are fewer."""
     found = lowest_modes(pencil, count - growing).values[:count]
     return np.append(found, np.full(count - len(found), np.nan))
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReleasedLimit:
-    """The limit of infinite frequency on one discretization.
+    """The limit of infinite frequency on one discretization."""
 
-    Attributes:
-        section: the discretization.
-        modes: the modes with ψ = 0 on the free surface, where there are beams.
-        tones: of each elastic body.
-        added_mass: of the floats' motions, dimensionless, shape (motions, motions); ``None`` without.
-        added_mass_error: relative to the root of the product of diagonal entries.
-        errors: relative errors of the tones' ω and of the added masses, by cause, shape (causes, values).
-    """
-
-    section: DiscreteSection
-    modes: SectionModes | None
-    tones: tuple[ElasticTone, ...]
-    added_mass: Array | None
-    added_mass_error: float
-    errors: Array
+    section: DiscreteSection  # the discretization
+    modes: SectionModes | None  # the modes with ψ = 0 on the free surface, where there are beams
+    tones: tuple[ElasticTone, ...]  # of each elastic body
+    added_mass: Array | None  # of the floats' motions, dimensionless, shape (motions, motions); ``None`` without
+    added_mass_error: float  # relative to the root of the product of diagonal entries
+    errors: Array  # relative errors of the tones' ω and of the added masses, by cause, shape (causes, values)
     missing: int = 0
 
     @property
@@ -409,70 +384,47 @@ def _added_mass(section: DiscreteSection) -> tuple[Array, Array]:
     tank, bodies = section.tank, section.bodies
     of_floats = np.repeat([index in tank.rigid for index in range(len(bodies))], [body.size for body in bodies])
 
-    def whole(pencils: Pencils) -> Array:
-        matrix = np.zeros((of_floats.sum(),) * 2)
-        for key, pencil in pencils.items():
-            path = section.extensions[key][of_floats]
-            if key is not None:
-                # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half
-                # has the mean, or the difference.
-                path = np.sqrt(2.0) * np.sign(path) / np.maximum(np.count_nonzero(path, axis=0), 1)
-            size = pencil.body_size
-            matrix += path @ pencil.added_mass[:size, :size] @ path.T
-        return matrix
+    def motions(key: Parity | None, pencil: Pencil) -> Array:
+        path = section.extensions[key][of_floats]
+        if key is not None:
+            # A body cut by the mirror plane moves alike in both halves; of mirrored bodies each half has the mean or
+            # the difference.
+            path = np.sqrt(2.0) * np.sign(path) / np.maximum(np.count_nonzero(path, axis=0), 1)
+        return np.hstack([path, np.zeros((len(path), pencil.size - pencil.body_size))]).T
 
-    matrix = whole(section.pencils(section.discretization.degree))
+    def whole(pencils: Pencils) -> Array:
+        moved = {key: motions(key, pencil) for key, pencil in pencils.items()}
+        return np.asarray(sum(moved[key].T @ pencil.added_mass @ moved[key] for key, pencil in pencils.items()))
+
+    pencils = section.pencils(section.discretization.degree)
+    matrix = whole(pencils)
     diagonal = np.diag(matrix).copy()
-    liquid, geometry = section.errors_of(diagonal, lambda pencils: np.diag(whole(pencils)).copy())
-    scales = np.array(
-        [
-            tank.hulls[index].smallest_extent ** (4 if dof.is_rotation else 2)
-            for index in tank.rigid
-            for dof in bodies[index].dofs
-        ]
-    )
-    moves = diagonal > _NO_LIQUID * scales
+    energies = section.liquid_energies({key: motions(key, own) for key, own in pencils.items()})
+    liquid = remainder(*np.sum(list(energies.values()), axis=0))
+    geometry = section.geometry_errors(lambda pencils: np.diag(whole(pencils)).copy(), len(diagonal))
+    own = [(tank.hulls[index].smallest_extent, dof) for index in tank.rigid for dof in bodies[index].dofs]
+    moves = diagonal > _NO_LIQUID * np.array([size ** (4 if dof.is_rotation else 2) for size, dof in own])
     rounding = np.full(len(diagonal), rounding_error(section.discretization.degree, tank.depth))
     errors = np.array([liquid, np.zeros_like(liquid), geometry, rounding])[:, moves]
-    turns = np.zeros_like(matrix)
-    first = 0
-    for index in tank.rigid:
-        size = bodies[index].size
-        turns[first : first + size, first : first + size] = bodies[index].motions
-        first += size
+    turns = block_diag(*(bodies[index].motions for index in tank.rigid))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
     return 0.5 * (physical + physical.T), errors
 
 
 @dataclass(frozen=True, kw_only=True)
 class SectionSolution:
-    """The solution of a closed section.
-
-    Attributes:
-        physical: the tank, in SI units.
-        tank: the same in its own units, in which ρ = g = L = 1.
-        tolerance: asked relative error of frequencies.
-        count: number of modes asked for.
-        sought: modes that were solved for.
-        found: the modes.
-        limit: the limit of infinite frequency.
-        counted: whether inertia confirms that no mode is missing.
-        seconds: by stage.
-    """
-
-    physical: Tank
-    tank: Tank
-    tolerance: float
-    count: int
-    sought: SoughtModes
-    found: SectionModes
-    limit: ReleasedLimit | None
-    counted: bool
-    seconds: dict[str, float]
+    physical: Tank  # the tank, in SI units
+    tank: Tank  # the same in its own units, in which ρ = g = L = 1
+    tolerance: float  # asked relative error of frequencies
+    count: int  # number of modes asked for
+    sought: SoughtModes  # modes that were solved for
+    found: SectionModes  # the modes
+    limit: ReleasedLimit | None  # the limit of infinite frequency
+    counted: bool  # whether inertia confirms that no mode is missing
+    seconds: dict[str, float]  # by stage
 
     @cached_property
     def dataset(self) -> xr.Dataset:
-        """All results in SI units."""
         from hydroelastic.fem.closed.dataset import section_dataset
 
         return section_dataset(self)
@@ -532,25 +484,23 @@ def solve_section(
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):
         report("limit of infinite frequency")
-        sections = _Sections(comm, tank, half=half, released=True)
-        limit = solve_adaptive(
-            discretization_of_limit(tank, workable), lambda own: released_limit(sections.of(own)), workable
-        )
+        released = DiscreteSection(comm, tank, discretization_of_limit(tank, workable), half=half, released=True)
+        limit = solve_adaptive(released.discretization, lambda own: released_limit(released.changed(own)), workable)
     limited = perf_counter()
-    sections = _Sections(comm, tank, half=half)
+    section = DiscreteSection(comm, tank, discretization_of_modes(tank, workable, sought), half=half)
     wanted = sought.modes
 
     def analysis(discretization: Discretization) -> SectionModes:
         report(f"degree {discretization.degree}, {wanted} modes")
-        return _with_tones(estimated_modes(sections.of(discretization), wanted), modes, limit)
+        return _with_tones(estimated_modes(section.changed(discretization), wanted), modes, limit)
 
-    first = discretization_of_modes(tank, workable, sought)
-    found = solve_adaptive(first, analysis, workable)
+    found = solve_adaptive(section.discretization, analysis, workable)
     if _uncertain(found, sought) and wanted < MOST_MODES_TO_TONE:
         # A tone may lie above: more modes, once.
         wanted = min(ceil(1.6 * wanted), MOST_MODES_TO_TONE)
         wider = discretization_of_modes(tank, workable, replace(sought, accurate=wanted))
-        found = solve_adaptive(replace(wider, degree=max(wider.degree, first.degree)), analysis, workable)
+        section = section.changed(replace(wider, degree=max(wider.degree, section.discretization.degree)))
+        found = solve_adaptive(section.discretization, analysis, workable)
     solved = perf_counter()
     counted = found.modes.is_counted()
     seconds = {"limit": limited - began, "modes": solved - limited, "count": perf_counter() - solved}
@@ -567,21 +517,6 @@ def solve_section(
     )
 
 
-class _Sections:
-    """The last discretization, whose parts the next one may have in common with it."""
-
-    def __init__(self, comm: MPI.Comm, tank: Tank, *, half: bool, released: bool = False) -> None:
-        self._comm, self._tank, self._half, self._released = comm, tank, half, released
-        self._last: DiscreteSection | None = None
-
-    def of(self, own: Discretization) -> DiscreteSection:
-        if self._last is None:
-            self._last = DiscreteSection(self._comm, self._tank, own, half=self._half, released=self._released)
-        else:
-            self._last = self._last.refined(own)
-        return self._last
-
-
 def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) -> SectionModes:
     tank, growing = found.section.tank, found.modes.growing
     amplitudes, bodies = found.amplitudes[growing:], found.section.bodies
@@ -593,14 +528,8 @@ def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) ->
     )
     added = None
     if limit is not None and limit.added_mass is not None:
-        parts: list[Array] = [np.empty(0)]
-        first = 0
-        for index in tank.rigid:
-            motions = bodies[index].motions
-            own = slice(first, first + len(motions))
-            parts.append(np.diag(motions.T @ limit.added_mass[own, own] @ motions))
-            first += len(motions)
-        added = np.concatenate(parts)
+        turns = block_diag(*(bodies[index].motions for index in tank.rigid))
+        added = np.diag(turns.T @ limit.added_mass @ turns)
     moved = float_modes(bodies, tank.rigid, found.values, amplitudes, added, complete=found.modes.complete)
     judged = {
         *range(min(asked, len(found.values))),

@@ -36,33 +36,23 @@ _SHARED_MOTION = 2.0
 
 @dataclass(frozen=True, kw_only=True)
 class ElasticTone:
-    """The first elastic tone of one beam among computed modes.
+    """The first elastic tone of one beam among computed modes."""
 
-    Attributes:
-        body: index of the beam.
-        index: index of the mode, from 0.
-        participation: pₙ of that mode.
-        runner_up: the next largest pₙ.
-        sharing: indices of the first and the last mode that share it.
-        certain: whether no mode above the computed ones can have a larger participation: their sum is less than the
-            largest one, or the computed modes extend well above the tone.
-    """
-
-    body: int
-    index: int
-    participation: float
-    runner_up: float
-    sharing: tuple[int, int]
+    body: int  # index of the beam
+    index: int  # index of the mode, from 0
+    participation: float  # pₙ of that mode
+    runner_up: float  # the next largest pₙ
+    sharing: tuple[int, int]  # indices of the first and the last mode that share it
+    # whether no mode above the computed ones can have a larger participation: their sum is less than the largest
+    # one, or the computed modes extend well above the tone
     certain: bool
 
     @property
     def is_shared(self) -> bool:
-        """Whether a second mode has a participation nearly as large."""
         return self.runner_up > SHARED * self.participation
 
     @property
     def is_of_one_mode(self) -> bool:
-        """Whether the tone is attributed to a single mode."""
         return not self.is_shared or self.participation >= LEAST_OF_ONE_MODE
 
 
@@ -75,15 +65,7 @@ def first_elastic(bodies: Sequence[Body], body: int) -> tuple[int, int]:
 def elastic_tone(
     values: Array, amplitudes: Array, bodies: Sequence[Body], body: int, *, released: float | None = None
 ) -> ElasticTone:
-    """Return the mode of largest participation.
-
-    Args:
-        values: λ of the modes, ascending.
-        amplitudes: of the bodies, at unit generalized mass, shape (modes, body unknowns).
-        bodies: of the whole tank.
-        body: index of the beam.
-        released: λ of its pressure-release tone.
-    """
+    """Return the mode of largest participation."""
     first, place = first_elastic(bodies, body)
     # Modes have unit generalized mass, so φᵀKφ = λ.
     parts = bodies[body].stiffness[first] * amplitudes[:, place] ** 2 / values
@@ -105,31 +87,19 @@ def elastic_tone(
 
 @dataclass(frozen=True, kw_only=True)
 class FloatMode:
-    """The mode of a motion with restoring force; dimensionless.
+    """The mode of a motion with restoring force; dimensionless."""
 
-    Attributes:
-        body: index of the float.
-        motion: degree of freedom.
-        index: index of the mode, from 0; ``None`` where it is not one of the computed modes.
-        reason: why there is no mode, or "".
-        stiffness: of the motion.
-        inertia: mass or moment of inertia of the float.
-        modal_mass: smallest 1/a².
-        runner_up: the next smallest.
-    """
-
-    body: int
-    motion: Dof
-    index: int | None
-    reason: str
-    stiffness: float
-    inertia: float
-    modal_mass: float
-    runner_up: float
+    body: int  # index of the float
+    motion: Dof  # degree of freedom
+    index: int | None  # index of the mode, from 0; ``None`` where it is not one of the computed modes
+    reason: str  # why there is no mode, or ""
+    stiffness: float  # of the motion
+    inertia: float  # mass or moment of inertia of the float
+    modal_mass: float  # smallest 1/a²
+    runner_up: float  # the next smallest
 
     @property
     def is_shared(self) -> bool:
-        """Whether a second mode has nearly the same amplitude, by coupling with waves or other bodies."""
         return self.index is not None and self.runner_up < _SHARED_MOTION * self.modal_mass
 
 
@@ -142,16 +112,7 @@ def float_modes(
     *,
     complete: bool,
 ) -> tuple[FloatMode, ...]:
-    """Find the mode of each restored motion of the floats.
-
-    Args:
-        bodies: of the whole tank.
-        floats: indices of the floats.
-        values: λ of the modes, ascending.
-        amplitudes: of the bodies, shape (modes, body unknowns).
-        added: infinite-frequency added mass of each unknown of the floats, one after the other; ``None`` without.
-        complete: whether there are no modes above these.
-    """
+    """Find the mode of each restored motion of the floats."""
     found = []
     offsets = np.cumsum([0, *(body.size for body in bodies)])
     seen = 0

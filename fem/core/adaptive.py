@@ -9,26 +9,19 @@ import numpy as np
 
 
 class Refinable(Protocol):
-    """A discretization: sizes of cells, degrees, numbers of shapes."""
-
     def refined(self, causes: Mapping[str, float]) -> Self | None:
         """A finer one for the causes of an error, each in parts of the tolerance; ``None`` where none is finer."""
 
 
 class Estimated(Protocol):
-    """The result of an analysis on one discretization."""
+    """A result with the largest errors by each cause and in all, and how many of the things asked for it lacks."""
 
     @property
-    def causes(self) -> Mapping[str, float]:
-        """The largest relative error by each cause."""
-
+    def causes(self) -> Mapping[str, float]: ...
     @property
-    def error(self) -> float:
-        """The largest sum of all causes."""
-
+    def error(self) -> float: ...
     @property
-    def missing(self) -> int:
-        """How many of the things asked for it lacks."""
+    def missing(self) -> int: ...
 
 
 Result = TypeVar("Result", bound=Estimated)

@@ -14,7 +14,8 @@ Each kind is one function in `BODIES`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import compress
 from math import pi
 from typing import Any
 
@@ -41,43 +42,36 @@ _NEGLIGIBLE = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """A body of a tank in its unknowns, dimensionless.
+    """A body of a tank in its unknowns, dimensionless."""
 
-    Attributes:
-        index: among the bodies of the tank.
-        dofs: degree of freedom of each shape.
-        parities: symmetry of each shape about the middle of the body.
-        shapes: displacements of the wetted surface.
-        stiffness: of each shape, hydrostatics included, shape (shapes,).
-        bending: the part of it that is strain energy, shape (shapes,).
-        mass: shape (shapes, shapes).
-        motions: the shapes as columns in the degrees of freedom; the identity but of principal motions.
-        is_slit: whether its two sides lie on one line.
-    """
-
-    index: int
-    dofs: tuple[Dof, ...]
-    parities: tuple[Parity, ...]
-    shapes: Shapes
-    stiffness: Array
-    bending: Array
-    mass: Array
-    motions: Array
-    is_slit: bool = False
+    index: int  # among the bodies of the tank
+    dofs: tuple[Dof, ...]  # degree of freedom of each shape
+    parities: tuple[Parity, ...]  # symmetry of each shape about the middle of the body
+    shapes: Shapes  # displacements of the wetted surface
+    stiffness: Array  # of each shape, hydrostatics included, shape (shapes,)
+    bending: Array  # the part of it that is strain energy, shape (shapes,)
+    mass: Array  # shape (shapes, shapes)
+    motions: Array  # the shapes as columns in the degrees of freedom; the identity but of principal motions
+    is_slit: bool = False  # whether its two sides lie on one line
 
     @property
     def name(self) -> str:
-        """Name of its wetted surface."""
         return body_name(self.index + 1)
 
     @property
     def size(self) -> int:
-        """Number of shapes."""
         return len(self.dofs)
 
-    def of_first(self, count: int) -> Array:
-        """Which shapes stay where only the first `count` dry modes of its beam are taken, shape (shapes,)."""
-        return np.array([not dof.is_elastic or int(dof.split()[1]) <= count for dof in self.dofs], dtype=bool)
+    def of_first(self, count: int) -> tuple[Body, Array]:
+        """The same with only the first dry modes of its beam, and which shapes these are, shape (shapes,)."""
+        kept = np.array([not dof.is_elastic or int(dof.split()[1]) <= count for dof in self.dofs], dtype=bool)
+        own: dict[str, Any] = {
+            "stiffness": self.stiffness[kept],
+            "bending": self.bending[kept],
+            "mass": self.mass[kept][:, kept],
+        }
+        own |= {"dofs": tuple(compress(self.dofs, kept)), "parities": tuple(compress(self.parities, kept))}
+        return replace(self, motions=self.motions[kept][:, kept], **own), kept
 
 
 def beam(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
@@ -169,7 +163,6 @@ BODIES: dict[type, Callable[[Tank, int, int, Parity | None], Body]] = {Beam: bea
 
 
 def body_of(tank: Tank, index: int, count: int, parity: Parity | None = None) -> Body:
-    """A body of a scaled tank in its unknowns."""
     make = next(make for kind, make in BODIES.items() if isinstance(tank.bodies[index], kind))
     return make(tank, index, count, parity)
 

@@ -51,8 +51,11 @@ def normal_load(v, q, weight, normal):  # type: ignore[no-untyped-def]
 
 
 class CompiledForms(NamedTuple):
-    """Forms on any mesh of one kind; `transverse` is the constant n² or k² of the first, ``None`` in a plane."""
+    """Forms on any mesh of one kind, and elements of ψ and of bodies' shapes; `transverse` is the constant n² or k², or
+    ``None``."""
 
+    element: basix.ufl._ElementBase
+    shapes: basix.ufl._ElementBase
     laplace: fem.forms.CompiledForm
     surface: fem.forms.CompiledForm
     normal_load: fem.forms.CompiledForm
@@ -63,9 +66,10 @@ class CompiledForms(NamedTuple):
 def compiled_forms(kind: Kind, cell: str, dim: int, geometry_degree: int, degree: int) -> CompiledForms:
     """Compile the forms for ψ of a degree (collective)."""
     domain = ufl.Mesh(basix.ufl.element("Lagrange", cell, geometry_degree, shape=(dim,)))
-    space = ufl.FunctionSpace(domain, basix.ufl.element("Lagrange", cell, degree))
-    shapes = ufl.FunctionSpace(domain, basix.ufl.element("Lagrange", cell, degree + SMOOTHER, shape=(dim,)))
-    psi, q, v = ufl.TrialFunction(space), ufl.TestFunction(space), ufl.TrialFunction(shapes)
+    element = basix.ufl.element("Lagrange", cell, degree)
+    shapes = basix.ufl.element("Lagrange", cell, degree + SMOOTHER, shape=(dim,))
+    space, of_bodies = ufl.FunctionSpace(domain, element), ufl.FunctionSpace(domain, shapes)
+    psi, q, v = ufl.TrialFunction(space), ufl.TestFunction(space), ufl.TrialFunction(of_bodies)
     x, n = ufl.SpatialCoordinate(domain), ufl.FacetNormal(domain)
     weight = x[0] if kind == "revolved" else 1.0
     transverse = None if kind == "plane" else ufl.Constant(domain)
@@ -82,6 +86,8 @@ def compiled_forms(kind: Kind, cell: str, dim: int, geometry_degree: int, degree
 
     with kernels_locked(MPI.COMM_WORLD):
         return CompiledForms(
+            element=element,
+            shapes=shapes,
             laplace=compiled(laplace(psi, q, weight, squared) * dx),
             surface=compiled(surface(psi, q, weight) * of_surface),
             normal_load=compiled(normal_load(v, q, weight, n) * of_shapes),

@@ -13,19 +13,21 @@ Arrays of unknowns hold those of this process by rows; columns are all of them, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, NamedTuple
 
+import basix
 import numpy as np
 import scipy.sparse as sp
 from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
+from dolfinx.la import InsertMode
 from dolfinx.mesh import Mesh, compute_midpoints
 from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.core.forms import MARKED, SMOOTHER, compiled_forms
+from hydroelastic.fem.core.forms import MARKED, compiled_forms
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.meshes.compat import coordinate_degree, form_in_cells, form_on_facets
 from hydroelastic.meshes.distribute import TankMesh
@@ -35,28 +37,28 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Trace:
-    """The unknowns of ψ on a surface of one layer, on every process.
+class Trace(NamedTuple):
+    """The unknowns of ψ on a surface of one layer, on every process."""
 
-    Attributes:
-        facets: global numbers of the unknowns on each facet, along it, shape (facets, unknowns).
-        points: their coordinates, shape (facets, unknowns, dim).
-    """
+    facets: Indices  # global numbers of the unknowns on each facet, along it, shape (facets, unknowns)
+    points: Array  # their coordinates, shape (facets, unknowns, dim)
 
-    facets: Indices
-    points: Array
-
-    @property
-    def unknowns(self) -> Indices:
-        """Global numbers of the unknowns in the order of the facets, each once."""
+    def unknowns(self, other: Trace | None = None) -> Indices:
+        """Numbers of the unknowns in the order of the facets, each once, or of those of another layer there."""
         _, first = np.unique(self.facets, return_index=True)
-        return self.facets.ravel()[np.sort(first)]
+        return (other or self).facets.ravel()[np.sort(first)]
 
-    def matched(self, other: Trace) -> Indices:
-        """The unknowns of another layer at the same points, in the order of `unknowns`."""
-        _, first = np.unique(self.facets, return_index=True)
-        return other.facets.ravel()[np.sort(first)]
+
+Zero = tuple[str, ...]
+"""Names of facets with ψ = 0."""
+
+
+class Conditions(NamedTuple):
+    """Own unknowns with ψ = 0, layers that these leave closed, and own unknowns that A⁺ sets to zero."""
+
+    zeros: Indices
+    closed: tuple[int, ...]
+    fixed: Indices
 
 
 class Liquid:
@@ -65,27 +67,19 @@ class Liquid:
     def __init__(
         self, mesh: TankMesh, degree: int, densities: Sequence[float], layers: Sequence[str], geometry: Geometry = PLANE
     ) -> None:
-        """Assemble A (collective).
-
-        Args:
-            mesh: of all layers, with nodes split between them.
-            degree: of ψ.
-            densities: ρ of each layer, from the bottom up.
-            layers: physical name of the cells of each.
-            geometry: what the mesh stands for.
-        """
         self.mesh, self.degree, self.densities, self.geometry = mesh, degree, tuple(densities), geometry
         domain = mesh.mesh
         self.comm: MPI.Comm = domain.comm
         cell = domain.ufl_cell().cellname
         self.forms = compiled_forms(
-            geometry.kind,
-            cell() if callable(cell) else cell,
-            domain.geometry.dim,
-            coordinate_degree(domain),
-            degree,
+            geometry.kind, cell() if callable(cell) else cell, domain.geometry.dim, coordinate_degree(domain), degree
         )
-        self.space = fem.functionspace(domain, ("Lagrange", degree))
+        self.space = fem.functionspace(domain, self.forms.element)
+        self._conditions: dict[Zero, Conditions] = {}
+        self._restrictions: dict[int, sp.csc_array] = {}
+        self._matrix: PETSc.Mat | None = None
+        self._solver: Any = None
+        self._factorized: Zero | None = None
         constants = {} if self.forms.transverse is None else {self.forms.transverse: geometry.transverse}
         self.laplace = _assembled(form_in_cells(self.forms.laplace, [self.space] * 2, domain, constants))
         dofmap = self.space.dofmap
@@ -106,7 +100,6 @@ class Liquid:
         return np.asarray(self.space.tabulate_dof_coordinates()[:, : self.mesh.mesh.geometry.dim])
 
     def has(self, name: str) -> bool:
-        """Whether the mesh has facets of a name."""
         return name in self.mesh.facet_names
 
     def boundary(self, name: str) -> Indices:
@@ -115,39 +108,89 @@ class Liquid:
         dofs = fem.locate_dofs_topological(self.space, self.mesh.mesh.topology.dim - 1, facets)
         return np.asarray(dofs[dofs < self.owned], dtype=np.int64)
 
-    def surface(self, name: str) -> sp.csr_matrix:
-        """∫ηq over the facets of a name, rows of this process (collective)."""
+    def surface(self, name: str) -> PETSc.Mat:
         form = form_on_facets(self.forms.surface, [self.space] * 2, self.mesh.mesh, MARKED, self.mesh.facets(name))
-        return _rows(_assembled(form))
+        return _assembled(form)
 
     def trace(self, name: str, layer: int) -> Trace:
         """The unknowns on the facets of a name in a layer (collective)."""
         dim = self.mesh.mesh.topology.dim
-        closure = self.space.element.basix_element.entity_closure_dofs[dim - 1]
         cells, sides = _cells_at(self.mesh.mesh, self.mesh.facets(name))
-        rows, points = [], []
-        for cell, side in zip(cells, sides, strict=True):
-            if cell < len(self.layer_of_cell) and self.layer_of_cell[cell] == layer:
-                dofs = self.space.dofmap.cell_dofs(cell)[closure[side]]
-                dofs = dofs[np.lexsort(np.round(self.points[dofs], 12).T[::-1])]
-                rows.append(self.space.dofmap.index_map.local_to_global(dofs.astype(np.int32)))
-                points.append(self.points[dofs])
-        width = len(closure[0])
-        own = np.array(rows, dtype=np.int64).reshape(-1, width), np.array(points).reshape(-1, width, dim)
-        facets, places = (np.concatenate(parts) for parts in zip(*self.comm.allgather(own), strict=True))
-        order = np.lexsort(np.round(places.mean(axis=1), 12).T[::-1])
-        return Trace(facets=facets[order], points=places[order])
+        here = (cells < len(self.layer_of_cell)) & (
+            self.layer_of_cell[np.minimum(cells, len(self.layer_of_cell) - 1)] == layer
+        )
+        dofs = _on_sides(self.space, cells[here], sides[here])
+        points = self.points[dofs]
+        order = np.lexsort(np.round(points, 12).transpose(2, 0, 1)[::-1])
+        dofs, points = np.take_along_axis(dofs, order, axis=1), np.take_along_axis(points, order[..., None], axis=1)
+        numbers = self.space.dofmap.index_map.local_to_global(dofs.ravel().astype(np.int32)).reshape(dofs.shape)
+        facets, points = (
+            np.concatenate(parts)
+            for parts in zip(*self.comm.allgather((numbers, points.reshape(*dofs.shape, dim))), strict=True)
+        )
+        order = np.lexsort(np.round(points.mean(axis=1), 12).T[::-1])
+        return Trace(facets[order], points[order])
 
-    def shape_space(self, names: Sequence[str]) -> ShapeSpace:
-        """The displacements of bodies with wetted facets of some names (collective)."""
-        return ShapeSpace(self, names)
+    def conditions(self, zero: Zero) -> Conditions:
+        """The conditions ψ = 0 on the facets of some names (collective)."""
+        if zero not in self._conditions:
+            zeros = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(self.boundary, zero)]))
+            is_open = np.bincount(self.layer_of[zeros], minlength=len(self.densities)).astype(np.int64)
+            self.comm.Allreduce(MPI.IN_PLACE, is_open)
+            closed, fixed = tuple(map(int, np.flatnonzero(is_open == 0))), [zeros]
+            for layer in closed:
+                own = np.flatnonzero(self.layer_of == layer)[:1]
+                first = self.comm.allreduce(int(own[0]) + self.first if len(own) else self.size, op=MPI.MIN)
+                fixed.append(own[own + self.first == first])
+            self._conditions[zero] = Conditions(zeros, closed, np.concatenate(fixed))
+        return self._conditions[zero]
 
-    def factorized(self, zero: Indices, closed: Sequence[int]) -> Factorized:
-        """A⁺ with ψ = 0 at own unknowns, and some layers closed (collective)."""
-        return Factorized(self, zero, closed)
+    def solve(self, loads: Array, zero: Zero) -> Array:
+        """A⁺: ψ of loads, both on the unknowns of this process, shape (unknowns, loads); loads where ψ = 0 become zero
+        (collective).
+
+        The factors are those of the last conditions; others take their symbolic factorization.
+        """
+        if not loads.shape[1]:
+            return loads
+        fixed, size = self.conditions(zero).fixed, ((self.owned, self.size), (None, loads.shape[1]))
+        if self._factorized != zero:
+            if self._matrix is None:
+                self._matrix = self.laplace.copy()
+            else:
+                self.laplace.copy(self._matrix, PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
+            self._matrix.zeroRowsColumns((fixed + self.first).astype(PETSc.IntType), 1.0)
+            self._factorized, self._solver = None, direct_solver(self._matrix, self._solver)
+            self._factorized = zero
+        loads[fixed] = 0.0
+        psi = np.empty(loads.shape, order="F")
+        self._solver.matSolve(
+            *(PETSc.Mat().createDense(size, array=own, comm=self.comm) for own in (np.asfortranarray(loads), psi))
+        )
+        return psi
+
+    def restricted(self, finer: Liquid, rows: Indices, loads: Array) -> Array:
+        """Loads on own unknowns of a liquid of a higher degree as loads on these (collective)."""
+        if finer.degree not in self._restrictions:
+            # Each of them is a sum of functions of this degree in any of its cells.
+            elements = [liquid.space.ufl_element().basix_element for liquid in (self, finer)]
+            table = basix.compute_interpolation_operator(*elements)
+            places, first = np.unique(finer.space.dofmap.list, return_index=True)
+            cells, local = np.divmod(first[np.searchsorted(places, rows)], table.shape[0])
+            starts = np.arange(len(rows) + 1) * table.shape[1]
+            columns = np.asarray(self.space.dofmap.list[cells]).ravel()
+            shape = len(rows), len(self.points)
+            self._restrictions[finer.degree] = sp.csr_array((table[local].ravel(), columns, starts), shape=shape).T
+        found = np.asarray(self._restrictions[finer.degree] @ loads)
+        if self.comm.size > 1:
+            vector = fem.Function(self.space).x
+            for column in found.T:
+                vector.array[:] = column
+                vector.scatter_reverse(InsertMode.add)
+                column[:] = vector.array
+        return found[: self.owned]
 
     def function(self, values: Array, name: str = "psi") -> fem.Function:
-        """A function of ψ from the values of the unknowns of this process."""
         function = fem.Function(self.space, name=name)
         function.x.array[: self.owned] = values
         function.x.scatter_forward()
@@ -155,15 +198,13 @@ class Liquid:
 
 
 class ShapeSpace:
-    """Displacements v on wetted facets, and their loads ∫v·n q.
+    """Displacements v on wetted facets, and their loads ∫v·n q (collective).
 
-    Attributes:
-        points: of each name, where v is asked for, and on which side of the facet the liquid is there along x, −1 or 1;
-            on every process.
+    `points`: of each name, where v is asked for, and on which side of the facet the liquid is there along x, −1 or 1;
+    on every process.
     """
 
     def __init__(self, liquid: Liquid, names: Sequence[str]) -> None:
-        """Assemble the loads of a unit of v at each point (collective)."""
         domain, topology = liquid.mesh.mesh, liquid.mesh.mesh.topology
         self._dim = domain.geometry.dim
         present = [name for name in names if liquid.has(name)]
@@ -171,26 +212,19 @@ class ShapeSpace:
         self._columns: dict[str, Indices] = {}
         if not present:
             return
-        space = fem.functionspace(domain, ("Lagrange", liquid.degree + SMOOTHER, (self._dim,)))
+        space = fem.functionspace(domain, liquid.forms.shapes)
         facets = np.unique(np.concatenate([liquid.mesh.facets(name) for name in present]))
         form = form_on_facets(liquid.forms.normal_load, [liquid.space, space], domain, MARKED, facets)
-        self._matrix = _rows(_assembled(form))
+        matrix = _rows(_assembled(form))
         coordinates = space.tabulate_dof_coordinates()[:, : self._dim]
-        closure = space.element.basix_element.entity_closure_dofs[topology.dim - 1]
         for name in present:
             cells, local = _cells_at(domain, liquid.mesh.facets(name))
-            dofs = [space.dofmap.cell_dofs(cell)[closure[side]] for cell, side in zip(cells, local, strict=True)]
-            middles = compute_midpoints(domain, topology.dim, cells)[:, 0]
-            sides = [
-                np.sign(x - coordinates[own, 0].mean()) * np.ones(len(own))
-                for x, own in zip(middles, dofs, strict=True)
-            ]
-            own, first = np.unique(np.concatenate([np.empty(0, dtype=np.int32), *dofs]), return_index=True)
-            found = (
-                space.dofmap.index_map.local_to_global(own.astype(np.int32)),
-                coordinates[own].reshape(-1, self._dim),
-                np.concatenate([np.empty(0), *sides])[first],
-            )
+            dofs = _on_sides(space, cells, local)
+            middles = compute_midpoints(domain, topology.dim, cells)[:, :1]
+            sides = np.sign(middles - coordinates[dofs, 0].mean(axis=1, keepdims=True)) * np.ones(dofs.shape)
+            own, first = np.unique(dofs, return_index=True)
+            numbers = space.dofmap.index_map.local_to_global(own.astype(np.int32))
+            found = numbers, coordinates[own].reshape(-1, self._dim), sides.ravel()[first]
             # Also the ghosts: of a facet on the boundary of a process another may own the unknowns.
             numbers, points, of_sides = (
                 np.concatenate(parts) for parts in zip(*liquid.comm.allgather(found), strict=True)
@@ -198,40 +232,15 @@ class ShapeSpace:
             numbers, first = np.unique(numbers, return_index=True)
             self.points[name] = points[first], of_sides[first]
             self._columns[name] = (self._dim * numbers[:, None] + np.arange(self._dim)).ravel()
+        used = np.unique(np.concatenate(list(self._columns.values())))
+        self._matrix = matrix[:, used]
+        self._columns = {name: np.searchsorted(used, columns) for name, columns in self._columns.items()}
 
     def load(self, name: str, displacements: Array) -> Array:
         """Loads, rows of this process, of displacements at the points of a name, shape (shapes, dim, points)."""
-        values = displacements.transpose(2, 1, 0).reshape(len(self._columns[name]), -1)
-        return np.asarray(self._matrix[:, self._columns[name]] @ values)
-
-
-class Factorized:
-    """A⁺ of a `Liquid` for one set of conditions ψ = 0."""
-
-    def __init__(self, liquid: Liquid, zero: Indices, closed: Sequence[int]) -> None:
-        self.liquid, self.closed = liquid, tuple(closed)
-        fixed = [zero]
-        for layer in closed:
-            own = np.flatnonzero(liquid.layer_of == layer)[:1]
-            first = liquid.comm.allreduce(int(own[0]) + liquid.first if len(own) else liquid.size, op=MPI.MIN)
-            fixed.append(own[own + liquid.first == first])
-        self._fixed = np.concatenate(fixed).astype(np.int64)
-        matrix = liquid.laplace.copy()
-        matrix.zeroRowsColumns((self._fixed + liquid.first).astype(PETSc.IntType), 1.0)
-        self._solver = direct_solver(matrix)
-
-    def solve(self, loads: Array) -> Array:
-        """ψ of loads, both on the unknowns of this process, shape (unknowns, loads) (collective)."""
-        if not loads.shape[1]:
-            return loads.copy()
-        right = loads.copy(order="F")
-        right[self._fixed] = 0.0
-        size = ((self.liquid.owned, self.liquid.size), (None, loads.shape[1]))
-        comm = self.liquid.comm
-        answer = PETSc.Mat().createDense(size, comm=comm)
-        answer.setUp()
-        self._solver.matSolve(PETSc.Mat().createDense(size, array=right, comm=comm), answer)
-        return np.array(answer.getDenseArray())
+        values = np.zeros((self._matrix.shape[1], len(displacements)))
+        values[self._columns[name]] = displacements.transpose(2, 1, 0).reshape(len(self._columns[name]), -1)
+        return np.asarray(self._matrix @ values)
 
 
 def _cells_at(mesh: Mesh, facets: NDArray[np.int32]) -> tuple[NDArray[np.int32], Indices]:
@@ -246,6 +255,11 @@ def _cells_at(mesh: Mesh, facets: NDArray[np.int32]) -> tuple[NDArray[np.int32],
     return cells, np.argmax(table[cells] == facets[:, None], axis=1)
 
 
+def _on_sides(space: fem.FunctionSpace, cells: NDArray[np.int32], sides: Indices) -> Indices:
+    closure = np.array(space.element.basix_element.entity_closure_dofs[space.mesh.topology.dim - 1])
+    return np.asarray(space.dofmap.list[cells[:, None], closure[sides]], dtype=np.int64)
+
+
 def _assembled(form: fem.Form) -> PETSc.Mat:
     matrix = fem_petsc.assemble_matrix(form)
     matrix.assemble()
@@ -253,6 +267,5 @@ def _assembled(form: fem.Form) -> PETSc.Mat:
 
 
 def _rows(matrix: PETSc.Mat) -> sp.csr_matrix:
-    """Own rows of a matrix, with all columns."""
     rows, columns = matrix.getLocalSize()[0], matrix.getSize()[1]
     return sp.csr_matrix(matrix.getValuesCSR()[::-1], shape=(rows, columns))

@@ -21,7 +21,7 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 from petsc4py import PETSc
-from scipy.linalg import cholesky, lapack, qr, solve_triangular
+from scipy.linalg import cholesky, eigh, lapack, qr, solve_triangular
 from slepc4py import SLEPc
 
 from hydroelastic.fem.core.pencil import Pencil
@@ -40,30 +40,25 @@ _SHIFT = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Modes:
-    """The lowest modes of a pencil, ascending, at unit generalized mass.
+    """The lowest modes of a pencil, ascending, at unit generalized mass."""
 
-    Attributes:
-        pencil: theirs.
-        values: λ, shape (modes,).
-        vectors: ζ, shape (n, modes).
-        residuals: relative, shape (modes,).
-        growing: number of the first ones that grow, λ < 0.
-        complete: whether there are no others.
-        zero_modes: number of motions without stiffness.
-    """
-
-    pencil: Pencil
-    values: Array
-    vectors: Array
-    residuals: Array
-    growing: int
-    complete: bool
-    zero_modes: int
+    pencil: Pencil  # theirs
+    values: Array  # λ, shape (modes,)
+    vectors: Array  # ζ, shape (n, modes)
+    residuals: Array  # relative, shape (modes,)
+    growing: int  # number of the first ones that grow, λ < 0
+    complete: bool  # whether there are no others
+    zero_modes: int  # number of motions without stiffness
 
     @property
     def amplitudes(self) -> Array:
         """Body part of ζ, shape (modes, body unknowns)."""
         return self.vectors[: self.pencil.body_size].T
+
+    @property
+    def body_energies(self) -> Array:
+        """ζᵀMζ, the bodies' part of the kinetic energy, shape (modes,)."""
+        return np.asarray(((self.pencil.mass @ self.vectors) * self.vectors).sum(axis=0))
 
     @cached_property
     def energies(self) -> Array:
@@ -78,12 +73,12 @@ class Modes:
         """ψ of a mode, with the constants of its closed layers (collective)."""
         pencil, liquid = self.pencil, self.pencil.liquid
         zeta, value = self.vectors[:, number], self.values[number]
-        psi = pencil.operator.solve((pencil.coupling @ zeta)[:, None])[:, 0]
+        psi = pencil.potentials(zeta[:, None])[:, 0]
         # K ζ − λ T ζ = λ Σ ρ c V: the constant c of each closed layer.
         rest = pencil.stiffness @ zeta - value * (pencil.kinetic @ zeta)
         scale = 1.0 / np.sqrt(np.abs(np.diag(pencil.stiffness)) + np.diag(pencil.kinetic))
         constants = np.linalg.lstsq((pencil.volumes * scale).T, scale * rest / value, rcond=1e-9)[0]
-        for layer, constant in zip(pencil.closed, constants, strict=True):
+        for layer, constant in zip(liquid.conditions(pencil.zero).closed, constants, strict=True):
             psi[liquid.layer_of == layer] += constant / liquid.densities[layer]
         return liquid.function(psi)
 
@@ -172,26 +167,26 @@ class _Volumes:
         return np.asarray(own[0])
 
     def projected(self, matrix: Array) -> Array:
-        """Zᵀ (matrix) Z."""
         if not self._count:
             return matrix
         turned = self._turned(self._turned(matrix, "L", "T"), "R", "N")
         return turned[self._count :, self._count :]
 
     def whole(self, vectors: Array) -> Array:
-        """Z (vectors)."""
         if not self._count:
             return vectors
         return self._turned(np.vstack([np.zeros((self._count, vectors.shape[1])), vectors]), "L", "N")
 
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:
-    """The largest eigenvalues of a symmetric matrix, descending, and their vectors."""
+    size = len(operator)
+    if size <= max(_FEW, 3 * count):
+        values, vectors = eigh(operator, subset_by_index=(size - count, size - 1), driver="evr", check_finite=False)
+        return values[::-1], vectors[:, ::-1]
     solver = SLEPc.EPS().create(PETSc.COMM_SELF)
     matrix = PETSc.Mat().createDense(operator.shape, array=np.asfortranarray(operator), comm=PETSc.COMM_SELF)
     solver.setOperators(matrix)
     solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
-    solver.setType(SLEPc.EPS.Type.LAPACK if len(operator) <= max(_FEW, 3 * count) else SLEPc.EPS.Type.KRYLOVSCHUR)
     solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
     solver.setDimensions(count)
     solver.setTolerances(1e-14)

@@ -21,23 +21,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class MergedModes(Generic[Key]):
-    """The lowest modes of all parts.
+    """The lowest modes of all parts."""
 
-    Attributes:
-        parts: the modes of each.
-        origins: of each mode in ascending order, the growing ones first: its part, and its number there.
-        growing: number of the growing ones.
-        complete: whether no mode lies above these.
-    """
-
-    parts: Mapping[Key, Modes]
+    parts: Mapping[Key, Modes]  # the modes of each
+    # of each mode in ascending order, the growing ones first: its part, and its number there
     origins: tuple[tuple[Key, int], ...]
-    growing: int
-    complete: bool
+    growing: int  # number of the growing ones
+    complete: bool  # whether no mode lies above these
 
     @property
     def values(self) -> Array:
-        """λ of each mode."""
         return np.array([self.parts[key].values[number] for key, number in self.origins])
 
     def of_parts(self, values: Mapping[Key, Array]) -> Array:
@@ -46,7 +39,6 @@ class MergedModes(Generic[Key]):
 
     @property
     def zero_modes(self) -> int:
-        """Number of motions without stiffness."""
         return sum(modes.zero_modes for modes in self.parts.values())
 
     def is_counted(self) -> bool:

@@ -6,7 +6,7 @@ C has a column for each shape of each body, ∫vᵢ·n q, and for each unknown o
 below and −∫ηⱼ q in the one above. K holds the stiffness of the bodies and Δρ g ∫ηᵢηⱼ, M the mass of the bodies. V is
 the volume that each unknown takes from each closed layer; the constant of ψ there is its Lagrange multiplier.
 
-K, M + M_a and V are small and dense, and the same on every process; C is sparse, with the rows of each.
+K, M + M_a and V are small and dense, and the same on every process; C has the rows of each.
 """
 
 from __future__ import annotations
@@ -17,13 +17,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse as sp
 from mpi4py import MPI
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.core.bodies import Body
-from hydroelastic.fem.core.liquid import Factorized, Indices, Liquid
+from hydroelastic.fem.core.liquid import Indices, Liquid, ShapeSpace, Zero
 
 Array = NDArray[np.float64]
 
@@ -46,47 +45,30 @@ class Surface(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Pencil:
-    """The matrices of one part of a tank.
+    """The matrices of one part of a tank."""
 
-    Attributes:
-        liquid: ψ.
-        bodies: in the order of their unknowns.
-        surfaces: in the order of theirs, with the number of the unknowns of each.
-        stiffness: K, shape (n, n).
-        mass: M of the bodies, shape (n, n).
-        added_mass: M_a, shape (n, n).
-        volume: V, shape (constraints, n), independent rows.
-        volumes: of all closed layers, as rows.
-        closed: these layers.
-        coupling: C, rows of this process, shape (unknowns of ψ, n).
-        operator: A⁺.
-    """
-
-    liquid: Liquid
-    bodies: tuple[Body, ...]
-    surfaces: tuple[tuple[Surface, int], ...]
-    stiffness: Array
-    mass: Array
-    added_mass: Array
-    volume: Array
-    volumes: Array
-    closed: tuple[int, ...]
-    coupling: sp.csr_array
-    operator: Factorized
+    liquid: Liquid  # ψ
+    bodies: tuple[Body, ...]  # in the order of their unknowns
+    surfaces: tuple[tuple[Surface, int], ...]  # in the order of theirs, with the number of the unknowns of each
+    stiffness: Array  # K, shape (n, n)
+    mass: Array  # M of the bodies, shape (n, n)
+    added_mass: Array  # M_a, shape (n, n)
+    volume: Array  # V, shape (constraints, n), independent rows
+    volumes: Array  # of all closed layers, as rows
+    zero: Zero  # names of facets with ψ = 0
+    rows: Indices  # unknowns of ψ of this process on what moves
+    coupling: Array  # C on these, shape (rows, n); zero elsewhere
 
     @property
     def body_size(self) -> int:
-        """Number of body unknowns; they come first."""
         return sum(body.size for body in self.bodies)
 
     @property
     def size(self) -> int:
-        """Number of surface unknowns."""
         return len(self.stiffness)
 
     @cached_property
     def kinetic(self) -> Array:
-        """M + M_a."""
         return self.mass + self.added_mass
 
     @cached_property
@@ -95,8 +77,25 @@ class Pencil:
         free = np.flatnonzero(~self.stiffness.any(axis=0))
         return len(free) - _rank(self.volume[:, free])
 
+    def potentials(self, vectors: Array) -> Array:
+        """A⁺C ζ on the unknowns of this process, shape (unknowns, vectors) (collective)."""
+        return self.liquid.solve(_spread(self.coupling @ vectors, self.rows, self.liquid), self.zero)
+
+    def added_energies(self, vectors: Array, liquid: Liquid | None = None) -> Array:
+        """ζᵀM_aζ, or what it is with ψ of a lower degree, of vectors that keep the volumes (collective).
+
+        The loads are the same on that subspace, and η follows the trace of ψ: λ changes by the same part as
+        ζᵀ(M + M_a)ζ, up to squares.
+        """
+        if liquid is None:
+            return np.einsum("ik,ij,jk->k", vectors, self.added_mass, vectors, optimize=True)
+        loads = liquid.restricted(self.liquid, self.rows, self.coupling @ vectors)
+        weights = np.array(liquid.densities)[liquid.layer_of]
+        energies = np.einsum("nk,nk,n->k", loads, liquid.solve(loads, self.zero), weights)
+        liquid.comm.Allreduce(MPI.IN_PLACE, energies)
+        return energies
+
     def with_bodies(self, bodies: tuple[Body, ...]) -> Pencil:
-        """Other stiffnesses and masses of the same shapes."""
         size = self.body_size
         stiffness, mass = self.stiffness.copy(), self.mass.copy()
         stiffness[:size, :size], mass[:size, :size] = _body_matrices(bodies)
@@ -104,18 +103,18 @@ class Pencil:
 
     def of_first(self, counts: Sequence[int]) -> Pencil:
         """The same with only the first dry modes of each body of the tank."""
-        of_bodies = [body.of_first(counts[body.index]) for body in self.bodies]
-        kept = np.concatenate([*of_bodies, np.ones(self.size - self.body_size, dtype=bool)])
+        first = [body.of_first(counts[body.index]) for body in self.bodies]
+        kept = np.concatenate([*(own for _, own in first), np.ones(self.size - self.body_size, dtype=bool)])
         both = np.ix_(kept, kept)
         return replace(
             self,
-            bodies=tuple(_restricted(body, own) for body, own in zip(self.bodies, of_bodies, strict=True)),
+            bodies=tuple(body for body, _ in first),
             stiffness=self.stiffness[both],
             mass=self.mass[both],
             added_mass=self.added_mass[both],
             volume=self.volume[:, kept],
             volumes=self.volumes[:, kept],
-            coupling=self.coupling[:, np.flatnonzero(kept)],
+            coupling=self.coupling[:, kept],
         )
 
     def released(self, surfaces: Sequence[str]) -> Pencil:
@@ -151,20 +150,8 @@ class Pencil:
             added_mass=0.5 * (added + added.T),
             volume=volume[_independent(volume)],
             volumes=self.volumes @ path,
-            coupling=sp.csr_array(self.coupling @ sp.csr_array(path)),
+            coupling=self.coupling @ path,
         )
-
-
-def _restricted(body: Body, kept: Array) -> Body:
-    return replace(
-        body,
-        dofs=tuple(dof for dof, stays in zip(body.dofs, kept, strict=True) if stays),
-        parities=tuple(parity for parity, stays in zip(body.parities, kept, strict=True) if stays),
-        stiffness=body.stiffness[kept],
-        bending=body.bending[kept],
-        mass=body.mass[np.ix_(kept, kept)],
-        motions=body.motions[np.ix_(kept, kept)],
-    )
 
 
 def _body_matrices(bodies: Sequence[Body]) -> tuple[Array, Array]:
@@ -177,66 +164,65 @@ class Loads:
     """What the parts of a tank have in common: the loads of surfaces and bodies on one mesh and degree."""
 
     def __init__(self, liquid: Liquid, surfaces: Sequence[Surface], bodies: Sequence[str]) -> None:
-        """Assemble the loads (collective).
-
-        Args:
-            liquid: ψ.
-            surfaces: under gravity.
-            bodies: names of the wetted surfaces.
-        """
         self.liquid = liquid
         self.surfaces = tuple(surface for surface in surfaces if liquid.has(surface.name))
-        self.shapes = liquid.shape_space(bodies)
+        self.shapes = ShapeSpace(liquid, bodies)
+        moving = [*(surface.name for surface in self.surfaces), *self.shapes.points]
+        self._rows = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(liquid.boundary, moving)]))
         self._blocks = [self._surface_block(surface) for surface in self.surfaces]
 
-    def _surface_block(self, surface: Surface) -> tuple[sp.csr_array, Array, Indices]:
+    def _surface_block(self, surface: Surface) -> tuple[Array, Array, Indices]:
         """Loads and stiffness of the unknowns of a surface, and their numbers among those of ψ."""
         liquid = self.liquid
-        matrix = liquid.surface(surface.name)
         trace = liquid.trace(surface.name, surface.below)
-        unknowns = trace.unknowns
-        load = sp.csr_array(matrix[:, unknowns])
-        if surface.above is not None:
-            load = load - sp.csr_array(matrix[:, trace.matched(liquid.trace(surface.name, surface.above))])
+        unknowns = trace.unknowns()
+        starts, columns, values = liquid.surface(surface.name).getValuesCSR()
+        rows = np.repeat(np.arange(liquid.owned), np.diff(starts))
+
+        def block(of_rows: Indices, of_columns: Indices) -> Array:
+            places = [np.full(size, -1) for size in (liquid.owned, liquid.size)]
+            for place, numbers in zip(places, (of_rows, of_columns), strict=True):
+                place[numbers] = np.arange(len(numbers))
+            row, column = places[0][rows], places[1][columns]
+            both = (row >= 0) & (column >= 0)
+            found = np.zeros((len(of_rows), len(of_columns)))
+            found[row[both], column[both]] = values[both]
+            return found
+
+        load = block(self._rows, unknowns)
         own = (unknowns >= liquid.first) & (unknowns < liquid.first + liquid.owned)
         restoring = np.zeros((len(unknowns),) * 2)
-        restoring[own] = load[unknowns[own] - liquid.first].toarray()
+        restoring[own] = load[np.searchsorted(self._rows, unknowns[own] - liquid.first)]
         liquid.comm.Allreduce(MPI.IN_PLACE, restoring)
+        if surface.above is not None:
+            load = load - block(self._rows, trace.unknowns(liquid.trace(surface.name, surface.above)))
         return load, 0.5 * surface.jump * (restoring + restoring.T), unknowns
 
-    def pencil(self, bodies: tuple[Body, ...], zero: Sequence[str]) -> Pencil:
+    def pencil(self, bodies: tuple[Body, ...], zero: Zero) -> Pencil:
         """The pencil of a part with ψ = 0 on the facets of some names (collective)."""
-        liquid = self.liquid
-        zeros = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *map(liquid.boundary, zero)]))
-        held = np.zeros(liquid.owned, dtype=bool)
-        held[zeros] = True
-        open_layers = np.bincount(liquid.layer_of[zeros], minlength=len(liquid.densities)).astype(np.int64)
-        liquid.comm.Allreduce(MPI.IN_PLACE, open_layers)
-        closed = tuple(int(layer) for layer in np.flatnonzero(open_layers == 0))
+        liquid, rows = self.liquid, self._rows
+        zeros, closed, _ = liquid.conditions(zero)
         everywhere = np.concatenate(liquid.comm.allgather(zeros + liquid.first))
-        columns = [sp.csr_array((liquid.owned, 0)), *(sp.csr_array(self._body_loads(body)) for body in bodies)]
-        restoring, surfaces = [], []
+        columns, restoring, surfaces = [self._body_loads(body) for body in bodies], [], []
         for surface, (load, stiffness, unknowns) in zip(self.surfaces, self._blocks, strict=True):
             kept = np.flatnonzero(~np.isin(unknowns, everywhere))
             columns.append(load[:, kept])
             restoring.append(stiffness[np.ix_(kept, kept)])
             surfaces.append((surface, len(kept)))
-        coupling = sp.csr_array(sp.hstack(columns, format="csr"))
-        ones = np.array([liquid.layer_of == layer for layer in closed], dtype=float).reshape(len(closed), liquid.owned)
-        volumes = np.ascontiguousarray((coupling.T @ ones.T).T)
+        coupling = np.hstack([np.empty((len(rows), 0)), *columns])
+        volumes = (liquid.layer_of[rows] == np.array(closed)[:, None]).astype(float) @ coupling
         liquid.comm.Allreduce(MPI.IN_PLACE, volumes)
-        largest = liquid.comm.allreduce(abs(coupling).sum(axis=0).max(initial=0.0), op=MPI.MAX)
+        largest = liquid.comm.allreduce(np.abs(coupling).sum(axis=0).max(initial=0.0), op=MPI.MAX)
         volumes[np.abs(volumes) <= _NO_VOLUME * largest] = 0.0
-        coupling = sp.csr_array(sp.diags_array((~held).astype(float)) @ coupling)
-        operator = liquid.factorized(zeros, closed)
-        weighed = coupling.T @ sp.diags_array(np.array(liquid.densities)[liquid.layer_of])
-        added = np.zeros((coupling.shape[1],) * 2)
-        for first in range(0, len(added), _TOGETHER):
+        coupling[np.isin(rows, zeros)] = 0.0
+        weighed = (coupling * np.array(liquid.densities)[liquid.layer_of[rows], None]).T
+        count = coupling.shape[1]
+        added = np.zeros((count, count))
+        for first in range(0, count, _TOGETHER):
             some = slice(first, first + _TOGETHER)
-            added[:, some] = weighed @ operator.solve(coupling[:, some].toarray())
+            added[:, some] = weighed @ liquid.solve(_spread(coupling[:, some], rows, liquid), zero)[rows]
         liquid.comm.Allreduce(MPI.IN_PLACE, added)
         stiffness, mass = _body_matrices(bodies)
-        count = coupling.shape[1]
         whole_mass = np.zeros((count, count))
         whole_mass[: len(mass), : len(mass)] = mass
         return Pencil(
@@ -248,14 +234,21 @@ class Loads:
             added_mass=0.5 * (added + added.T),
             volume=volumes[_independent(volumes)],
             volumes=volumes,
-            closed=closed,
+            zero=zero,
+            rows=rows,
             coupling=coupling,
-            operator=operator,
         )
 
     def _body_loads(self, body: Body) -> Array:
         points, sides = self.shapes.points[body.name]
-        return self.shapes.load(body.name, body.shapes(points, sides if body.is_slit else np.zeros_like(sides)))
+        shapes = body.shapes(points, sides if body.is_slit else np.zeros_like(sides))
+        return self.shapes.load(body.name, shapes)[self._rows]
+
+
+def _spread(loads: Array, rows: Indices, liquid: Liquid) -> Array:
+    found = np.zeros((liquid.owned, loads.shape[1]), order="F")
+    found[rows] = loads
+    return found
 
 
 def _independent(rows: Array) -> list[int]:

@@ -63,7 +63,9 @@ def test_motion_after_a_release_with_a_spring_and_a_damper() -> None:
     restoring, dynamic = held(stiffness, damping)
     # f = (2/π) ∫ Re F cos ωt dω with F = (1 − c/D)/p, whose tail goes like ω⁻⁴ and is left out beyond ω = 200 √c.
     omegas = np.linspace(1e-6, 2000.0, 400_001)
-    transform = ((1.0 - restoring / dynamic(-1j * omegas)) / (-1j * omegas)).real
+    # In pieces: the theory holds its quadrature at all frequencies at once.
+    stiffnesses = np.concatenate([dynamic(piece) for piece in np.array_split(-1j * omegas, 1000)])
+    transform = ((1.0 - restoring / stiffnesses) / (-1j * omegas)).real
     exact = [2.0 / np.pi * np.trapezoid(transform * np.cos(omegas * time), omegas) for time in times]
     assert np.abs(found.displacement[:, 0] - exact).max() <= 1e-3
 

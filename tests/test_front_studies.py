@@ -162,6 +162,6 @@ def test_a_folder_that_is_not_ours_is_refused_before_anything_is_solved(tmp_path
 
 @pytest.mark.slow
 def test_a_study_in_three_dimensions_has_rows_of_each_model() -> None:
-    study = he.study("rectangular_cover", tolerances=[1e-2])
+    study = he.study("cross_waves", tolerances=[1e-2])
     assert study.table["model"].nunique() > 1
     assert study.status == "ok"

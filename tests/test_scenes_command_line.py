@@ -264,11 +264,11 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         (["--help"], set()),
         (["run", "--help"], set()),
         (["run", "missing.toml"], set()),
-        # What solves draws only when asked, and draws sections without VTK.
+        # What solves draws only when asked.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
         (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING),
-        (["run", "aquarium", *COARSE], HEAVY - READING - SPACE),
+        (["run", "aquarium", *COARSE], HEAVY - READING),
     ],
 )
 def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], needed: set[str]) -> None:

@@ -8,21 +8,18 @@ floats; `influenced_dof` and `radiating_dof`, the motions of floats.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from hydroelastic.fem.closed.section import CAUSES
+from hydroelastic.fem.closed.discretization import CAUSES
 from hydroelastic.fem.closed.tones import added_mass_of, first_elastic, mode_kinds
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.physics.dofs import dof_names
 
-if TYPE_CHECKING:
-    from hydroelastic.fem.closed.section import SectionSolution
 
-
-def section_dataset(solution: SectionSolution) -> xr.Dataset:
+def section_dataset(solution: Any) -> xr.Dataset:
     """Collect all results of a section."""
     found, growing = solution.found, solution.found.modes.growing
     data = xr.Dataset(
@@ -55,7 +52,7 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
     )
 
 
-def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str, tuple]:
+def _of_modes(solution: Any, which: slice, prefix: str) -> dict[str, tuple]:
     found, growing = solution.found, prefix != ""
     values = np.abs(found.modes.values[which])
     mode = f"{prefix}mode"
@@ -78,7 +75,7 @@ def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str,
     }
 
 
-def _tones(solution: SectionSolution) -> xr.Dataset:
+def _tones(solution: Any) -> xr.Dataset:
     found, units = solution.found, solution.physical.units
     rows = []
     for number, (body, reached) in enumerate(zip(solution.tank.elastic, solution.sought.reaches_tones, strict=True)):
@@ -131,7 +128,7 @@ def _tones(solution: SectionSolution) -> xr.Dataset:
     return data
 
 
-def _floats(solution: SectionSolution) -> xr.Dataset:
+def _floats(solution: Any) -> xr.Dataset:
     found, units = solution.found, solution.physical.units
     rows = []
     for mode in found.float_modes:

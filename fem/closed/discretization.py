@@ -40,6 +40,9 @@ _NEGLIGIBLE = 0.3
 # By which sizes of cells are refined at the highest degree.
 _FINER = 0.65
 
+CAUSES = ("liquid", "dry_modes", "geometry", "rounding")
+"""Causes of the errors of a section."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Discretization:

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.closed.discretization import (
+    CAUSES,
     MOST_MODES_TO_TONE,
     Discretization,
     SoughtModes,
@@ -62,8 +63,6 @@ from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
 Array = NDArray[np.float64]
 Pencils = Mapping[Parity | None, Pencil]
 """By symmetry; ``None`` is the whole tank."""
-
-CAUSES = ("liquid", "dry_modes", "geometry", "rounding")
 
 # Number of modes per beam that contain its pressure-release tone: below it are rigid motions and modes of softer beams.
 _MODES_OF_A_BEAM = 6

@@ -98,5 +98,7 @@ def comparison_section(comparison: Summary) -> Section:
             (ROOT_MEAN_SQUARE.meaning, told.cell(ROOT_MEAN_SQUARE), ""),
             (MODES.meaning, told.cell(MODES), told.cell(MODES_ESTIMATE)),
         ],
-        lines=(f"Seconds: {told.cell(FIELD_SECONDS)} (field), {told.cell(SERIES_SECONDS)} (series).",),
+        lines=(f"Seconds: {told.cell(FIELD_SECONDS)} (field), {told.cell(SERIES_SECONDS)} (series).",)
+        if FIELD_SECONDS.key in comparison
+        else (),
     )

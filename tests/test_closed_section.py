@@ -5,10 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given_meshes import section_mesh
+from mpi4py import MPI
 
 import hydroelastic as he
 from hydroelastic.fem.closed.section import SectionSolution, solve_section
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.tank.user_mesh import user_mesh
 
 CASES = {
     case["name"]: case
@@ -78,3 +82,51 @@ def test_a_tolerance_below_rounding_is_refused_with_its_reason() -> None:
     assert "mode" in data.attrs["reasons"][0]
     assert "rounding alone leaves" in data.attrs["reasons"][0]
     assert "a tolerance of" in data.attrs["reasons"][0]
+
+
+def rectangle(length: float, depth: float, columns: int, rows: int, start: float, end: float) -> TaggedMesh:
+    """A uniform mesh of one liquid with a beam from start to end on it."""
+    x, y = np.linspace(0.0, length, columns + 1), np.linspace(-depth, 0.0, rows + 1)
+    number = np.arange(len(x) * len(y)).reshape(len(x), len(y))
+    a, b, c, d = (part.ravel() for part in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    top = np.column_stack([number[:-1, -1], number[1:, -1]])
+    middle = 0.5 * (x[1:] + x[:-1])
+    return TaggedMesh(
+        points=np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2),
+        cells=np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])]),
+        cell_tags=np.ones(2 * len(a), dtype=np.int32),
+        facets=top,
+        facet_tags=np.where((middle > start) & (middle < end), 2, 1).astype(np.int32),
+        cell_names={"liquid": 1},
+        facet_names={"free_surface": 1, "body_1": 2},
+    )
+
+
+def test_a_uniform_mesh_of_ones_own_has_the_modes_of_the_reference() -> None:
+    exact = CASES["base_s0"]
+    solution = solve_section(
+        physical_tank(case_scene("base_s0")),
+        tolerance=1e-7,
+        modes=len(exact["omega"]),
+        mesh=rectangle(10.0, 5.0, 20, 10, 3.0, 7.0),
+    )
+    data = solution.dataset
+    error = np.abs(data.omega.values[: len(exact["omega"])] / exact["omega"] - 1.0)
+    assert data.attrs["status"] == "ok"
+    # Cells of a sixth of the beam touch its tips: without r = s^m the error would not fall below 1e-5.
+    assert np.all(error <= 3.0 * data.relative_error.values[: len(error)])
+    tone = float(data.first_elastic_pressure_release_omega[0])
+    assert tone == pytest.approx(exact["psi0"]["elastic_omega"], rel=1e-7)
+
+
+def test_a_baffle_in_a_mesh_of_ones_own(tmp_path: Path) -> None:
+    section_mesh(tmp_path / "tank.msh", (10.0, 2.0), (20, 10), at=5.0, baffle=lambda place: bool(place[-1] > -1.0))
+    scene = he.TankScene(
+        tank={"length": 10.0},
+        liquid=[{"density": 900.0, "depth": 2.0}],
+        mesh={"file": str(tmp_path / "tank.msh")},
+        accuracy={"tolerance": 1e-2, "modes": 4},
+    )
+    before = he.solve(scene).dataset
+    data = solve_section(physical_tank(scene), tolerance=1e-2, modes=4, mesh=user_mesh(scene, MPI.COMM_WORLD)).dataset
+    assert data.omega.values[:4] == pytest.approx(before.omega.values, rel=1e-2)

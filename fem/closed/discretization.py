@@ -47,7 +47,8 @@ class Discretization:
 
     Attributes:
         degree: of ψ.
-        sizes: largest cells on each piece of the still levels, along a float's contour; in tank lengths.
+        sizes: largest cells on each piece of the still levels, along a float's contour; in tank lengths. None on a
+            mesh of one's own, whose cells stay.
         bulk: largest cells anywhere.
         near: size of cells at singular points, in parts of the distance to the next corner.
         geometry_degree: of curved cells.
@@ -77,7 +78,7 @@ class Discretization:
         if causes["liquid"] > _NEGLIGIBLE:
             # One degree gains about a factor of ten.
             more = 1 if causes["liquid"] < 8.0 else 2
-            if found.degree + more > HIGHEST_DEGREE:
+            if found.degree + more > HIGHEST_DEGREE and self.sizes:
                 found = replace(
                     found,
                     degree=max(HIGHEST_DEGREE - 1, found.degree),
@@ -86,7 +87,7 @@ class Discretization:
                     near=_FINER * found.near,
                 )
             else:
-                found = replace(found, degree=found.degree + more)
+                found = replace(found, degree=min(found.degree + more, HIGHEST_DEGREE))
         return None if found == self else found
 
 

@@ -52,8 +52,8 @@ from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline
-from hydroelastic.meshes.section import SectionSizes, SectionTriangles, section_triangles
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.section import SectionSizes, SectionTriangles, given_triangles, section_triangles
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, shapes_of_twins
 from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
@@ -130,7 +130,12 @@ class DiscreteSection:
     @property
     def is_curved(self) -> bool:
         """Whether cells follow curves."""
-        return any(curve.path is not None for curve in self.outline.curves)
+        return self.is_made and any(curve.path is not None for curve in self.outline.curves)
+
+    @property
+    def is_made(self) -> bool:
+        """Whether the mesh is not one of one's own."""
+        return len(self.discretization.sizes) > 0
 
     @cached_property
     def _triangles(self) -> SectionTriangles:
@@ -510,6 +515,7 @@ def solve_section(
     tolerance: float,
     modes: int,
     comm: MPI.Comm | None = None,
+    mesh: TaggedMesh | None = None,
     halves: bool = True,
     report: Callable[[str], None] = lambda _message: None,
 ) -> SectionSolution:
@@ -520,24 +526,28 @@ def solve_section(
         tolerance: relative error of frequencies.
         modes: how many, from the lowest.
         comm: processes.
+        mesh: one's own, straight, in m, with the names of `meshes.geometry`; on rank 0.
         halves: whether a tank that is its own mirror image is solved by halves.
         report: told of each discretization.
     """
     comm = comm or MPI.COMM_WORLD
     began = perf_counter()
     tank = physical.scaled()
-    half = halves and is_mirror_image(tank)
+    is_given = comm.bcast(mesh is not None, root=0)
+    half = halves and not is_given and is_mirror_image(tank)
+    given = mesh.scaled(1.0 / physical.length) if mesh is not None else None
     workable = max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(8, tank.depth))
     sought = sought_modes(tank, modes)
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):
         report("limit of infinite frequency")
-        sections = _Sections(comm, tank, half=half, released=True)
+        sections = _Sections(comm, tank, given, half=half, released=True)
+        first = discretization_of_limit(tank, workable)
         limit = solve_adaptive(
-            discretization_of_limit(tank, workable), lambda own: released_limit(sections.of(own)), workable
+            replace(first, sizes=()) if is_given else first, lambda own: released_limit(sections.of(own)), workable
         )
     limited = perf_counter()
-    sections = _Sections(comm, tank, half=half)
+    sections = _Sections(comm, tank, given, half=half)
     wanted = sought.modes
 
     def analysis(discretization: Discretization) -> SectionModes:
@@ -545,12 +555,13 @@ def solve_section(
         return _with_tones(estimated_modes(sections.of(discretization), wanted), modes, limit)
 
     first = discretization_of_modes(tank, workable, sought)
-    found = solve_adaptive(first, analysis, workable)
+    found = solve_adaptive(replace(first, sizes=()) if is_given else first, analysis, workable)
     if _uncertain(found, sought) and wanted < MOST_MODES_TO_TONE:
         # A tone may lie above: more modes, once.
         wanted = min(ceil(1.6 * wanted), MOST_MODES_TO_TONE)
         wider = discretization_of_modes(tank, workable, replace(sought, accurate=wanted))
-        found = solve_adaptive(replace(wider, degree=max(wider.degree, first.degree)), analysis, workable)
+        wider = replace(wider, degree=max(wider.degree, first.degree), sizes=() if is_given else wider.sizes)
+        found = solve_adaptive(wider, analysis, workable)
     solved = perf_counter()
     counted = found.modes.is_counted()
     seconds = {"limit": limited - began, "modes": solved - limited, "count": perf_counter() - solved}
@@ -570,13 +581,18 @@ def solve_section(
 class _Sections:
     """The last discretization, whose parts the next one may have in common with it."""
 
-    def __init__(self, comm: MPI.Comm, tank: Tank, *, half: bool, released: bool = False) -> None:
-        self._comm, self._tank, self._half, self._released = comm, tank, half, released
+    def __init__(
+        self, comm: MPI.Comm, tank: Tank, given: TaggedMesh | None, *, half: bool, released: bool = False
+    ) -> None:
+        self._comm, self._tank, self._given, self._half, self._released = comm, tank, given, half, released
         self._last: DiscreteSection | None = None
 
     def of(self, own: Discretization) -> DiscreteSection:
         if self._last is None:
             self._last = DiscreteSection(self._comm, self._tank, own, half=self._half, released=self._released)
+            if self._given is not None:
+                angles = {point.point: point.largest_angle for point in self._last.points}
+                self._last.__dict__["_triangles"] = given_triangles(self._given, angles)
         else:
             self._last = self._last.refined(own)
         return self._last

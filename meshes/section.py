@@ -125,13 +125,18 @@ def given_triangles(mesh: TaggedMesh, angles: Mapping[Point, float]) -> SectionT
     kinds, tags = ({tag: name for name, tag in own.items()} for own in (mesh.cell_names, mesh.facet_names))
     curves = (
         Curve(name=tags[tag], start=start, end=end, cut=tags[tag] == INTERFACE)
-        for tag, (start, end) in zip(mesh.facet_tags.tolist(), corners[mesh.facets].tolist(), strict=True)
+        for tag, start, end in zip(
+            map(int, mesh.facet_tags),
+            as_points(corners[mesh.facets[:, 0]]),
+            as_points(corners[mesh.facets[:, 1]]),
+            strict=True,
+        )
     )
     groups, regions = np.unique(mesh.cell_tags, return_inverse=True)
     return _parted(
         SectionTriangles(
             curves=tuple(curves),
-            names=tuple(kinds[group] for group in groups.tolist()),
+            names=tuple(kinds[group] for group in map(int, groups)),
             corners=corners,
             cells=mesh.cells,
             regions=regions,

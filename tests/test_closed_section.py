@@ -130,3 +130,46 @@ def test_a_baffle_in_a_mesh_of_ones_own(tmp_path: Path) -> None:
     before = he.solve(scene).dataset
     data = solve_section(physical_tank(scene), tolerance=1e-2, modes=4, mesh=user_mesh(scene, MPI.COMM_WORLD)).dataset
     assert data.omega.values[:4] == pytest.approx(before.omega.values, rel=1e-2)
+
+
+SHAPES = ("elevation", "deflection", "displacement", "motion")
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize("name", ["aquarium", "float_wedge", "float_in_two_liquids", "interface_beam", "off_centre"])
+def test_shapes_and_matrices_are_those_of_the_dataset_on_file(name: str) -> None:
+    scene = he.read(name, {"accuracy.modes": 5})
+    before = he.solve(scene).dataset
+    solution = solve_section(physical_tank(scene), tolerance=scene.accuracy.tolerance, modes=5)
+    shapes = solution.shapes
+    for quantity in set(shapes.variables) - {"sign"}:
+        assert shapes[quantity].dims == before[quantity].dims
+        if shapes[quantity].dtype.kind != "f":
+            assert list(shapes[quantity].values) == list(before[quantity].values)
+            continue
+        # Errors of frequencies are squares of those of shapes, which at tips are by r ln r not smooth.
+        largest = np.abs(before[quantity]).max()
+        tolerance = 1e-3 if str(quantity).startswith(SHAPES) else 1e-12
+        assert float(np.abs(shapes[quantity] - before[quantity]).max() / largest) < tolerance, quantity
+    assert {str(one) for one in before.variables if str(one).startswith(SHAPES)} <= set(map(str, shapes.variables))
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize("halves", [True, False])
+def test_the_liquid_moves_with_its_surface_and_keeps_its_volume(halves: bool) -> None:
+    scene = he.read("aquarium", {"accuracy.modes": 4})
+    solution = solve_section(physical_tank(scene), tolerance=1e-8, modes=4, halves=halves)
+    omega, shapes, samples = solution.dataset.omega.values, solution.shapes, solution.samples()
+    if samples is None:
+        assert MPI.COMM_WORLD.rank
+        return
+    corners = samples.position.values[samples.vertex.values]
+    areas = 0.5 * np.linalg.det(corners[:, 1:] - corners[:, :1])
+    assert np.all(areas > 0.0)
+    assert areas.sum() == pytest.approx(50.0, rel=1e-12)
+    at_wall = np.flatnonzero(np.all(np.abs(samples.position.values) < 1e-12, axis=1))[0]
+    for mode in range(4):
+        # On the surface η = ψ_y = ω²ψ/g: the weak form tells the first, ψ the second.
+        eta = float(shapes.elevation_of_free_surface_1[mode, 0])
+        assert float(samples.displacement[mode, at_wall, 1]) == pytest.approx(eta, rel=1e-4)
+        assert omega[mode] ** 2 / 9.81 * float(samples.potential[mode, at_wall]) == pytest.approx(eta, rel=1e-9)

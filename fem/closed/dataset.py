@@ -1,7 +1,7 @@
 """The Dataset of a closed section, in SI units per metre of width.
 
 Dimensions: `mode`, all modes that were solved for, ascending, of which the first `attrs["asked"]` were asked for;
-`growing_mode`; `cause` of errors; `dof`, the unknowns of all bodies; `share`, what has potential energy: these, then
+`growing_mode`; `cause` of errors; `body_dof`, unknowns of all bodies; `share`, what has potential energy: these, then
 the surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of
 floats; `influenced_dof` and `radiating_dof`, the motions of floats.
 """
@@ -33,7 +33,7 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
         {**_of_modes(solution, slice(growing, None), ""), **_of_modes(solution, slice(0, growing), "growing_")},
         coords={
             "cause": list(CAUSES),
-            "dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)],
+            "body_dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)],
         },
     )
     if solution.tank.elastic:
@@ -87,15 +87,15 @@ def reasons_of(solution: SectionSolution) -> Iterator[str]:
     for number, body in enumerate(solution.tank.elastic):
         beam = f"of {'plate' if solution.tank.geometry.is_revolved else 'beam'} {body + 1}"
         if number < len(found.tones) and found.tones[number].certain:
-            yield from excess(
-                f"the first elastic tone {beam} {estimated}", own[found.tones[number].index], tolerance
-            )
+            yield from excess(f"the first elastic tone {beam} {estimated}", own[found.tones[number].index], tolerance)
         released = solution.limit.tone(number) if solution.limit is not None else None
         if released is not None:
             yield from excess(f"the pressure-release tone {beam} {estimated}", released[1], tolerance)
     for mode in found.float_modes:
         if mode.index is not None:
-            yield from excess(f"the {mode.motion} mode of float {mode.body + 1} {estimated}", own[mode.index], tolerance)
+            yield from excess(
+                f"the {mode.motion} mode of float {mode.body + 1} {estimated}", own[mode.index], tolerance
+            )
     if solution.limit is not None and solution.limit.added_mass is not None:
         yield from excess(
             f"the added mass at infinite frequency {estimated}", solution.limit.added_mass_error, tolerance
@@ -120,7 +120,7 @@ def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str,
         f"{prefix}kind": (mode, np.array(mode_kinds(energies, found.section.bodies, found.surfaces), dtype=str)),
         f"{prefix}elastic_energy_fraction": (mode, strain),
         f"{prefix}residual": (mode, residuals),
-        f"{prefix}amplitude": ((mode, "dof"), found.amplitudes[which]),
+        f"{prefix}amplitude": ((mode, "body_dof"), found.amplitudes[which]),
         f"{prefix}energy": ((mode, "share"), energies),
     }
 
@@ -207,7 +207,7 @@ def _floats(solution: SectionSolution) -> xr.Dataset:
     limit = solution.limit
     if limit is not None and limit.added_mass is not None:
         bodies = [() if body.is_elastic else body.rigid_motions for body in solution.tank.bodies]
-        names = [str(dof) for dof in dof_names(bodies)]
+        names = [dof.capitalised for dof in dof_names(bodies)]
         turns = np.array([float(dof.is_rotation) for own in bodies for dof in own])
         masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
         both = ("influenced_dof", "radiating_dof")

@@ -17,7 +17,7 @@ the added mass of floats beside fixed beams.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf
@@ -485,28 +485,54 @@ class SectionSolution:
     def field(self, number: int) -> fem.Function:
         """ψ of a mode, counted from 0 with the growing ones first, on the mesh of its part; dimensionless, at unit
         generalized mass of that part (collective)."""
-        key, own = self.found.modes.origins[number]
-        return self.found.modes.parts[key].potential(own)
+        if number not in self._fields:
+            key, own = self.found.modes.origins[number]
+            self._fields[number] = self.found.modes.parts[key].potential(own)
+        return self._fields[number]
 
-    def elevation(self, number: int, level: StillLevel, x: Array) -> Array:
-        """Elevation of an open surface or interface in a mode at dimensionless abscissas, at unit generalized mass of
-        the whole tank; NaN beside it (collective).
+    @cached_property
+    def _fields(self) -> dict[int, fem.Function]:
+        return {}
+
+    def elevations(self, numbers: Sequence[int], level: StillLevel, x: Array) -> Array:
+        """Elevation of an open surface or interface in some modes at dimensionless abscissas, at unit generalized mass
+        of the whole tank, shape (modes, points); NaN beside it (collective).
 
         η = λ (ρψ below − ρψ above)/Δρ.
         """
-        key, _ = self.found.modes.origins[number]
-        psi = self.field(number).x.array
+        keys = [self.found.modes.origins[number][0] for number in numbers]
         name = FREE_SURFACE if level.above is None else INTERFACE
-        liquid = next(iter(self.found.modes.parts.values())).pencil.liquid
-        left = np.where(x > MIDDLE, 1.0 - x, x) if key is not None else x
-        total = np.zeros(len(x))
+        is_half = self.found.section.half
+        on_right = ((x > MIDDLE) | (x.min() >= MIDDLE)) & is_half
+        total = np.zeros((len(numbers), len(x)))
         for layer, sign in ((level.below, 1.0), (level.above, -1.0)):
             if layer is not None:
+                fields = [self.field(number) for number in numbers]
+                at = np.where(on_right, 1.0 - x, x)
                 density = sign * self.tank.layers[layer].density
-                total += density * along_level(liquid, psi[: liquid.owned], name, layer, left)
-        if key is not None:
-            total *= np.sqrt(0.5) * np.where((x > MIDDLE) & (key == "antisymmetric"), -1.0, 1.0)
-        return np.asarray(self.found.modes.values[number] * total / level.jump)
+                total += density * along_level(self.liquid, fields, name, layer, at)
+        if is_half:
+            odd = np.array([key == "antisymmetric" for key in keys])
+            total *= np.sqrt(0.5) * np.where(odd[:, None] & on_right, -1.0, 1.0)
+        return np.asarray(self.found.modes.values[list(numbers), None] * total / level.jump)
+
+    @property
+    def liquid(self) -> Liquid:
+        """ψ, of all parts."""
+        return next(iter(self.found.modes.parts.values())).pencil.liquid
+
+    @cached_property
+    def shapes(self) -> xr.Dataset:
+        """Shapes of the modes asked for and of growing ones along surfaces and bodies, in SI units (collective)."""
+        from hydroelastic.fem.closed.shapes import mode_shapes
+
+        return mode_shapes(self)
+
+    def samples(self) -> xr.Dataset | None:
+        """The same modes in the liquids on small triangles, on rank 0, in SI units (collective)."""
+        from hydroelastic.fem.closed.shapes import liquid_samples
+
+        return liquid_samples(self)
 
 
 def solve_section(

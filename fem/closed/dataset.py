@@ -112,9 +112,11 @@ def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str,
     strain = found.amplitudes[which] ** 2 @ bending / found.modes.values[which]
     residuals = found.modes.of_parts({key: part.residuals for key, part in found.modes.parts.items()})[which]
     omega = "growth_rate" if growing else "omega"
+    # Modes that were solved for beside others are not refined for.
+    errors = np.where(np.isin(np.arange(len(found.total)), found.judged), found.total, np.nan)[which]
     return {
         omega: (mode, np.sqrt(values) * solution.physical.units.frequency, {"units": "1/s" if growing else "rad/s"}),
-        f"{prefix}relative_error": (mode, found.total[which]),
+        f"{prefix}relative_error": (mode, errors),
         f"{prefix}error": (("cause", mode), found.errors[:, which]),
         f"{prefix}symmetry": (mode, symmetry),
         f"{prefix}kind": (mode, np.array(mode_kinds(energies, found.section.bodies, found.surfaces), dtype=str)),
@@ -218,11 +220,7 @@ def _floats(solution: SectionSolution) -> xr.Dataset:
 
 
 def _table(rows: list[dict[str, object]], dimension: str, prefix: str) -> xr.Dataset:
-    """Rows as variables along a dimension; what a row does not have is NaN."""
+    """Rows as variables along a dimension; what a row does not have is ``None``."""
     names = dict.fromkeys(name for row in rows for name in row)
-    return xr.Dataset(
-        {
-            prefix + name: (dimension, np.array([row.get(name, "" if name == "note" else np.nan) for row in rows]))
-            for name in names
-        }
-    )
+    columns = {name: np.array([row.get(name) for row in rows]) for name in names}
+    return xr.Dataset({prefix + name: (dimension, column) for name, column in columns.items()})

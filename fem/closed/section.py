@@ -37,6 +37,7 @@ from hydroelastic.fem.closed.discretization import (
     discretization_of_modes,
     rounding_error,
     sought_modes,
+    workable_tolerance,
 )
 from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
 from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, float_modes
@@ -59,6 +60,7 @@ from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, sha
 from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 Pencils = Mapping[Parity | None, Pencil]
 """By symmetry; ``None`` is the whole tank."""
 
@@ -68,8 +70,6 @@ CAUSES = ("liquid", "dry_modes", "geometry", "rounding")
 _MODES_OF_A_BEAM = 6
 # Rounding of each 1/λ by the eigen-solver, relative to the largest 1/λ.
 _ROUNDING_OF_SPREAD = 1e-15
-# The tolerance over the rounding error, so that other errors have a part of it too.
-_ROOM_FOR_ROUNDING = 5.0
 # Added mass below this part of ρ times the square (roll: fourth power) of the float's extent is rounding.
 _NO_LIQUID = 1e-9
 # α of singular points that need no smaller cells.
@@ -153,6 +153,12 @@ class DiscreteSection:
         powers = {point.point: point.power(own.degree) for point in self.points}
         degree = max([own.geometry_degree if self.is_curved else 1, *powers.values()])
         return self._triangles.noded(powers, degree)
+
+    def cells_of_layers(self) -> list[Indices]:
+        """Cells of each layer, as numbers of their corners."""
+        mesh = self._triangles
+        of_cells = np.array(mesh.names)[mesh.regions]
+        return [mesh.cells[of_cells == name] for name in dict.fromkeys(mesh.names)]
 
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
@@ -562,7 +568,7 @@ def solve_section(
     is_given = comm.bcast(mesh is not None, root=0)
     half = halves and not is_given and is_mirror_image(tank)
     given = mesh.scaled(1.0 / physical.length) if mesh is not None else None
-    workable = max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(8, tank.depth))
+    workable = workable_tolerance(tolerance, tank.depth)
     sought = sought_modes(tank, modes)
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):

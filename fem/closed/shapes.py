@@ -7,6 +7,7 @@ anticlockwise. Dimensions: `mode`, the modes asked for, and `growing_mode`, for 
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,9 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.closed.tones import first_elastic
 from hydroelastic.fem.core.sampling import tessellated
+from hydroelastic.fem.sweep.mode_vectors import ModeVectors
 from hydroelastic.physics.contours import POINTS, points_along
 from hydroelastic.physics.dofs import PLACES, body_name, dof_names
 
@@ -27,6 +30,8 @@ Array = NDArray[np.float64]
 _EQUAL = 1e-9
 # What moves less than this part of the waves moves by rounding, and is not to choose the sign of a mode.
 _STILL = 1e-6
+# Gauss points of each free piece of a still level: more than two for the shortest of 60 half waves.
+_POINTS_OF_VECTORS = 128
 
 
 def mode_shapes(solution: SectionSolution) -> xr.Dataset:
@@ -127,6 +132,46 @@ def shown_modes(solution: SectionSolution) -> list[int]:
     """Numbers of the modes asked for, then of the growing ones, among all."""
     growing, found = solution.found.modes.growing, len(solution.found.values)
     return [*range(growing, growing + min(solution.count, found)), *range(growing)]
+
+
+def mode_vectors(solution: SectionSolution) -> ModeVectors:
+    """All modes in the K-inner product, those above the requested ones too (collective)."""
+    tank, found, data = solution.tank, solution.found, solution.dataset
+    growing, scale = found.modes.growing, 1.0 / np.sqrt(found.values)[:, None]
+    amplitudes, bodies = found.amplitudes[growing:], found.section.bodies
+    stops = np.cumsum([0, *(body.size for body in bodies)])
+    blocks = {
+        f"body {number + 1}": amplitudes[:, own[0] : own[1]] * np.sqrt(np.abs(body.stiffness)) * scale
+        for number, (body, own) in enumerate(zip(bodies, pairwise(stops), strict=True))
+    }
+    at, weights = np.polynomial.legendre.leggauss(_POINTS_OF_VECTORS)
+    for level in tank.levels:
+        # Pieces are called by the bodies on their left, so that they have their names wherever these move.
+        left: list[int] = []
+        for piece in level.pieces:
+            if piece.body is not None:
+                left.append(piece.body + 1)
+            elif level.moves:
+                x = piece.start + 0.5 * (at + 1.0) * piece.length
+                elevation = solution.elevations(range(growing, growing + len(found.values)), level, x)
+                roots = np.sqrt(level.jump * 0.5 * weights * piece.length)
+                blocks[f"{level.name} right of {left}"] = elevation * roots * scale
+    firsts = [first_elastic(bodies, body) for body in tank.elastic]
+    parts = [
+        bodies[body].stiffness[first] * amplitudes[:, place] ** 2 / found.values
+        for body, (first, place) in zip(tank.elastic, firsts, strict=True)
+    ]
+    released = [solution.limit.tone(number) if solution.limit else None for number in range(len(tank.elastic))]
+    return ModeVectors(
+        omega=data.omega.values,
+        relative_error=data.relative_error.values,
+        symmetry=np.array([{"symmetric": 1.0, "antisymmetric": -1.0}.get(own, 0.0) for own in data.symmetry.values]),
+        blocks=blocks,
+        participation=np.array(parts).reshape(len(parts), len(found.values)),
+        pressure_release=np.array(
+            [np.nan if own is None else np.sqrt(own[0]) * solution.physical.units.frequency for own in released]
+        ),
+    )
 
 
 def _metres(solution: SectionSolution) -> float:

@@ -19,6 +19,7 @@ from itertools import pairwise
 
 import numpy as np
 from dolfinx import fem
+from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 from scipy.linalg import cholesky, lapack, qr, solve_triangular
@@ -32,6 +33,8 @@ Array = NDArray[np.float64]
 HIDDEN = 1e-13
 """Modes with 1/λ below this part of the largest are lost in rounding."""
 
+# Volumes below this part of the largest are rounding.
+_NO_WORK = 1e-6
 # Up to so many unknowns LAPACK finds all pairs sooner than others some of them.
 _FEW = 120
 # The shift in parts of the smallest restoring: the lowest λ is of its size.
@@ -85,6 +88,12 @@ class Modes:
         constants = np.linalg.lstsq((pencil.volumes * scale).T, scale * rest / value, rcond=1e-9)[0]
         for layer, constant in zip(pencil.closed, constants, strict=True):
             psi[liquid.layer_of == layer] += constant / liquid.densities[layer]
+        if len(pencil.closed) > 1 and np.abs(pencil.volumes.sum(axis=0)).max() < _NO_WORK * np.abs(pencil.volumes).max():
+            # A pressure common to all layers does no work and is arbitrary: its extremes are opposite.
+            densities = np.array(liquid.densities)[liquid.layer_of]
+            high = liquid.comm.allreduce((densities * psi).max(initial=-np.inf), op=MPI.MAX)
+            low = liquid.comm.allreduce((densities * psi).min(initial=np.inf), op=MPI.MIN)
+            psi -= 0.5 * (high + low) / densities
         return liquid.function(psi)
 
 

@@ -29,7 +29,7 @@ _HALVINGS = 54
 _ROUNDING = 1e-12
 # A Jacobian below this part of the cell's largest is that of a corner r = sᵐ; the distance from its middle, of 1, at
 # which the gradient is taken instead.
-_FLAT, _NEAR = 1e-10, 0.9
+_FLAT, _NEAR = 1e-10, 0.95
 
 
 def along_level(liquid: Liquid, functions: Sequence[fem.Function], name: str, layer: int, x: Array) -> Array:

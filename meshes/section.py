@@ -18,7 +18,7 @@ elements (R. S. Barsoum, Int. J. Numer. Meth. Eng. 10 (1976) 25) for m = 2; blen
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import ceil, inf
 
@@ -31,9 +31,10 @@ from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.filling import gmsh_model
+from hydroelastic.meshes.geometry import INTERFACE
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.outline import Curve, Outline, Point, as_points
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -45,6 +46,8 @@ _SAMPLES: Array = np.unique(np.concatenate([np.linspace(0.0, 1.0, 65), _NEAR_END
 _FINE: Array = np.linspace(0.0, 1.0, 97, dtype=np.float64)
 _KEPT = slice(0, None, 6)
 _EDGES = ((1, 2), (0, 2), (0, 1))
+# Nodes this close to a point are there, in units of the tank; files may hold single precision.
+_ROUNDING_OF_FILES = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,20 +67,22 @@ class SectionSizes:
     points: Mapping[Point, tuple[float, float]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class SectionTriangles:
     """A triangulated outline.
 
     Attributes:
-        outline: the domain.
+        curves: with a physical name, exact, or inner ones.
+        names: physical name of the cells of each region.
         corners: shape (corners, 2).
         cells: numbers of the corners of each, shape (cells, 3).
-        regions: of the outline, of each cell.
+        regions: that of each cell.
         chains: numbers of the corners along each curve.
         parameters: of the curve at these.
     """
 
-    outline: Outline
+    curves: tuple[Curve, ...]
+    names: tuple[str, ...]
     corners: Array
     cells: Indices
     regions: Indices
@@ -102,19 +107,54 @@ def section_triangles(outline: Outline, sizes: SectionSizes) -> SectionTriangles
     size = _SizeField(outline, sizes)
     parameters = [size.division(curve) for curve in outline.curves]
     corners, cells, regions, chains = _triangles(outline, parameters, size)
-    mesh = _Bisection(corners, cells, regions, chains)
-    largest = (angle for _, angle in sizes.points.values())
-    angles: dict[int, float] = dict(zip(map(int, _numbers(corners, sizes.points)), largest, strict=True))
-    mesh.part(set(angles))
-    mesh.fan(angles)
-    return SectionTriangles(
-        outline=outline,
-        corners=mesh.corners,
-        cells=mesh.cells,
-        regions=mesh.regions,
-        chains=chains,
-        parameters=parameters,
+    names = tuple(region.name for region in outline.regions)
+    largest = {point: angle for point, (_, angle) in sizes.points.items()}
+    return _parted(SectionTriangles(outline.curves, names, corners, cells, regions, chains, parameters), largest)
+
+
+def given_triangles(mesh: TaggedMesh, angles: Mapping[Point, float]) -> SectionTriangles:
+    """A straight mesh of one's own, whose nodes at singular points may miss them by the rounding of files.
+
+    Args:
+        mesh: in the unit of the points; each tagged edge is a curve of its own.
+        angles: largest angle of a cell at each singular point, rad.
+    """
+    corners = mesh.points.copy()
+    for point in angles:
+        corners[np.hypot(*(corners - point).T) < _ROUNDING_OF_FILES] = point
+    kinds, tags = ({tag: name for name, tag in own.items()} for own in (mesh.cell_names, mesh.facet_names))
+    curves = (
+        Curve(name=tags[tag], start=start, end=end, cut=tags[tag] == INTERFACE)
+        for tag, start, end in zip(
+            map(int, mesh.facet_tags),
+            as_points(corners[mesh.facets[:, 0]]),
+            as_points(corners[mesh.facets[:, 1]]),
+            strict=True,
+        )
     )
+    groups, regions = np.unique(mesh.cell_tags, return_inverse=True)
+    return _parted(
+        SectionTriangles(
+            curves=tuple(curves),
+            names=tuple(kinds[group] for group in map(int, groups)),
+            corners=corners,
+            cells=mesh.cells,
+            regions=regions,
+            chains=list(mesh.facets),
+            parameters=[np.array([0.0, 1.0])] * len(mesh.facets),
+        ),
+        angles,
+    )
+
+
+def _parted(mesh: SectionTriangles, largest: Mapping[Point, float]) -> SectionTriangles:
+    """The mesh with one singular point in each cell, whose angle there is not too large."""
+    parted = _Bisection(mesh.corners, mesh.cells, mesh.regions, mesh.chains)
+    numbers = map(int, _numbers(mesh.corners, largest))
+    angles: dict[int, float] = dict(zip(numbers, largest.values(), strict=True))
+    parted.part(set(angles))
+    parted.fan(angles)
+    return replace(mesh, corners=parted.corners, cells=parted.cells, regions=parted.regions)
 
 
 class _SizeField:
@@ -310,8 +350,7 @@ def _numbers(corners: Array, points: Iterable[Point]) -> Indices:
 
 
 def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> NodedMesh:
-    outline, corners, cells = mesh.outline, mesh.corners, mesh.cells
-    regions, chains, parameters = mesh.regions, mesh.chains, mesh.parameters
+    corners, cells, regions, chains, parameters = mesh.corners, mesh.cells, mesh.regions, mesh.chains, mesh.parameters
     count = len(corners)
     # Edges of the curves, by the key of their two corners.
     sources = np.concatenate([np.full(len(chain) - 1, number) for number, chain in enumerate(chains)])
@@ -322,8 +361,8 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
     side_keys = sides.min(axis=2) * count + sides.max(axis=2)
     place = np.minimum(np.searchsorted(keys[order], side_keys), len(keys) - 1)
     edge = np.where(keys[order][place] == side_keys, order[place], -1)  # the curve's edge at each side of each cell
-    names = [curve.name for curve in outline.curves]
-    is_cut = np.array([curve.cut for curve in outline.curves])
+    names = [curve.name for curve in mesh.curves]
+    is_cut = np.array([curve.cut for curve in mesh.curves])
     split = _split(cells, side_keys, np.where(edge >= 0, is_cut[sources[edge]], False))
 
     element = basix.create_element(
@@ -342,7 +381,7 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
     starts = np.concatenate([own[:-1] for own in parameters])
     ends = np.concatenate([own[1:] for own in parameters])
     for side, (a, b) in enumerate(_EDGES):
-        for number, curve in enumerate(outline.curves):
+        for number, curve in enumerate(mesh.curves):
             if curve.path is None:
                 continue
             at = np.flatnonzero((edge[side] >= 0) & (sources[edge[side]] == number))
@@ -361,7 +400,7 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
     points, numbers = _numbered(degree, split, nodes)
 
     tags = {name: tag for tag, name in enumerate(dict.fromkeys(name for name in names if name), 1)}
-    kinds = {name: tag for tag, name in enumerate(dict.fromkeys(region.name for region in outline.regions), 1)}
+    kinds = {name: tag for tag, name in enumerate(dict.fromkeys(mesh.names), 1)}
     side_at, cell_at = np.nonzero((edge >= 0) & (np.array([bool(name) for name in names])[sources[edge]]))
     facets = np.take_along_axis(numbers[cell_at], np.array(_EDGES)[side_at], axis=1)
     return NodedMesh(
@@ -369,7 +408,7 @@ def _noded(mesh: SectionTriangles, powers: Mapping[Point, int], degree: int) -> 
         degree=degree,
         points=points,
         cells=numbers,
-        cell_tags=np.array([kinds[region.name] for region in outline.regions], dtype=np.int32)[regions],
+        cell_tags=np.array([kinds[name] for name in mesh.names], dtype=np.int32)[regions],
         facets=facets,
         facet_tags=np.array([tags.get(name, 0) for name in names], dtype=np.int32)[sources[edge[side_at, cell_at]]],
         cell_names=kinds,

@@ -1,22 +1,26 @@
 """The Dataset of a closed section, in SI units per metre of width.
 
 Dimensions: `mode`, all modes that were solved for, ascending, of which the first `attrs["asked"]` were asked for;
-`growing_mode`; `cause` of errors; `dof`, the unknowns of all bodies; `share`, what has potential energy: these, then
+`growing_mode`; `cause` of errors; `body_dof`, unknowns of all bodies; `share`, what has potential energy: these, then
 the surfaces; `elastic_body`; `released_mode`, with ψ = 0 on the free surface; `float_mode`, the restored motions of
 floats; `influenced_dof` and `radiating_dof`, the motions of floats.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
+from hydroelastic.fem.closed.discretization import MOST_MODES_TO_TONE
 from hydroelastic.fem.closed.section import CAUSES
 from hydroelastic.fem.closed.tones import added_mass_of, first_elastic, mode_kinds
+from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.physics.dofs import dof_names
+from hydroelastic.physics.rigid_motions import mode_count
 
 if TYPE_CHECKING:
     from hydroelastic.fem.closed.section import SectionSolution
@@ -29,7 +33,7 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
         {**_of_modes(solution, slice(growing, None), ""), **_of_modes(solution, slice(0, growing), "growing_")},
         coords={
             "cause": list(CAUSES),
-            "dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)],
+            "body_dof": [str(dof) for dof in dof_names(body.dofs for body in found.section.bodies)],
         },
     )
     if solution.tank.elastic:
@@ -38,7 +42,10 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
         data = data.merge(_floats(solution))
     section, modes = found.section, found.modes
     pencils = [part.pencil for part in modes.parts.values()]
+    reasons = list(reasons_of(solution))
     return data.assign_attrs(
+        status="unconverged" if reasons else "ok",
+        reasons=reasons,
         asked=min(solution.count, len(found.values)),
         tolerance=solution.tolerance,
         zero_modes=modes.zero_modes,
@@ -55,6 +62,46 @@ def section_dataset(solution: SectionSolution) -> xr.Dataset:
     )
 
 
+def reasons_of(solution: SectionSolution) -> Iterator[str]:
+    """Why the tolerance is not kept, or something is missing; nothing where all is well."""
+    found, tolerance, estimated = solution.found, solution.tolerance, "has an estimated error"
+    growing = found.modes.growing
+    own = found.total[growing:]
+    asked = min(solution.count, len(own))
+    # Mode numbers start at one; the zero is for a tank without modes.
+    errors = np.append(0.0, own[:asked])
+    number = int(np.argmax(np.nan_to_num(errors, nan=np.inf)))
+    yield from excess(
+        f"mode {number} has an estimated relative error",
+        errors[number],
+        tolerance,
+        rounding=found.causes["rounding"],
+    )
+    rates = found.total[:growing].max(initial=0.0)
+    yield from excess("a growth rate has an estimated relative error", rates, tolerance)
+    there = mode_count(solution.tank)
+    if asked < min(solution.count, np.inf if there is None else there - growing):
+        yield f"{asked} of {solution.count} modes exceed the rounding of the lowest"
+    if not solution.counted:
+        yield "an independent count of the modes by inertia disagrees: a mode may be missing"
+    for number, body in enumerate(solution.tank.elastic):
+        beam = f"of {'plate' if solution.tank.geometry.is_revolved else 'beam'} {body + 1}"
+        if number < len(found.tones) and found.tones[number].certain:
+            yield from excess(f"the first elastic tone {beam} {estimated}", own[found.tones[number].index], tolerance)
+        released = solution.limit.tone(number) if solution.limit is not None else None
+        if released is not None:
+            yield from excess(f"the pressure-release tone {beam} {estimated}", released[1], tolerance)
+    for mode in found.float_modes:
+        if mode.index is not None:
+            yield from excess(
+                f"the {mode.motion} mode of float {mode.body + 1} {estimated}", own[mode.index], tolerance
+            )
+    if solution.limit is not None and solution.limit.added_mass is not None:
+        yield from excess(
+            f"the added mass at infinite frequency {estimated}", solution.limit.added_mass_error, tolerance
+        )
+
+
 def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str, tuple]:
     found, growing = solution.found, prefix != ""
     values = np.abs(found.modes.values[which])
@@ -65,15 +112,17 @@ def _of_modes(solution: SectionSolution, which: slice, prefix: str) -> dict[str,
     strain = found.amplitudes[which] ** 2 @ bending / found.modes.values[which]
     residuals = found.modes.of_parts({key: part.residuals for key, part in found.modes.parts.items()})[which]
     omega = "growth_rate" if growing else "omega"
+    # Modes that were solved for beside others are not refined for.
+    errors = np.where(np.isin(np.arange(len(found.total)), found.judged), found.total, np.nan)[which]
     return {
         omega: (mode, np.sqrt(values) * solution.physical.units.frequency, {"units": "1/s" if growing else "rad/s"}),
-        f"{prefix}relative_error": (mode, found.total[which]),
+        f"{prefix}relative_error": (mode, errors),
         f"{prefix}error": (("cause", mode), found.errors[:, which]),
         f"{prefix}symmetry": (mode, symmetry),
         f"{prefix}kind": (mode, np.array(mode_kinds(energies, found.section.bodies, found.surfaces), dtype=str)),
         f"{prefix}elastic_energy_fraction": (mode, strain),
         f"{prefix}residual": (mode, residuals),
-        f"{prefix}amplitude": ((mode, "dof"), found.amplitudes[which]),
+        f"{prefix}amplitude": ((mode, "body_dof"), found.amplitudes[which]),
         f"{prefix}energy": ((mode, "share"), energies),
     }
 
@@ -114,10 +163,12 @@ def _tones(solution: SectionSolution) -> xr.Dataset:
             }
             if tone.is_shared:
                 row["note"] = "the tone is shared between hybrid modes; see the pressure-release tone"
-        elif not reached:
-            row["note"] = "too many modes lie below it, and it was not searched for"
         else:
-            row["note"] = f"its energy is spread over modes beyond the first {len(found.values)}"
+            row["note"] = (
+                f"its energy is spread over modes beyond the first {len(found.values)}"
+                if reached
+                else f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
+            ) + "; see the pressure-release tone" * (released is not None)
         rows.append(row)
     data = _table(rows, "elastic_body", "first_elastic_")
     limit = solution.limit
@@ -158,7 +209,7 @@ def _floats(solution: SectionSolution) -> xr.Dataset:
     limit = solution.limit
     if limit is not None and limit.added_mass is not None:
         bodies = [() if body.is_elastic else body.rigid_motions for body in solution.tank.bodies]
-        names = [str(dof) for dof in dof_names(bodies)]
+        names = [dof.capitalised for dof in dof_names(bodies)]
         turns = np.array([float(dof.is_rotation) for own in bodies for dof in own])
         masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
         both = ("influenced_dof", "radiating_dof")
@@ -169,11 +220,7 @@ def _floats(solution: SectionSolution) -> xr.Dataset:
 
 
 def _table(rows: list[dict[str, object]], dimension: str, prefix: str) -> xr.Dataset:
-    """Rows as variables along a dimension; what a row does not have is NaN."""
+    """Rows as variables along a dimension; what a row does not have is ``None``."""
     names = dict.fromkeys(name for row in rows for name in row)
-    return xr.Dataset(
-        {
-            prefix + name: (dimension, np.array([row.get(name, "" if name == "note" else np.nan) for row in rows]))
-            for name in names
-        }
-    )
+    columns = {name: np.array([row.get(name) for row in rows]) for name in names}
+    return xr.Dataset({prefix + name: (dimension, column) for name, column in columns.items()})

@@ -37,6 +37,8 @@ _DEEP_ELASTIC, _DEEP_HEAVE, _DEEP_COUPLING = 0.12787, 0.39270, 0.114
 _ADDED_IN_HEAVE = pi / 8.0
 # Causes smaller than this part of the tolerance are not refined.
 _NEGLIGIBLE = 0.3
+# The tolerance over the rounding error, so that other errors have a part of it too.
+_ROOM_FOR_ROUNDING = 5.0
 # By which sizes of cells are refined at the highest degree.
 _FINER = 0.65
 
@@ -46,7 +48,8 @@ class Discretization:
     """What the loop refines."""
 
     degree: int  # of ψ
-    # largest cells on each piece of the still levels, along a float's contour; in tank lengths
+    # largest cells on each piece of the still levels, along a float's contour, in tank lengths; none on a mesh of one's
+    # own, whose cells stay
     sizes: tuple[float, ...]
     bulk: float  # largest cells anywhere
     near: float  # size of cells at singular points, in parts of the distance to the next corner
@@ -67,7 +70,7 @@ class Discretization:
         if causes["liquid"] > _NEGLIGIBLE:
             # One degree gains about a factor of ten.
             more = 1 if causes["liquid"] < 8.0 else 2
-            if found.degree + more > HIGHEST_DEGREE:
+            if found.degree + more > HIGHEST_DEGREE and self.sizes:
                 found = replace(
                     found,
                     degree=max(HIGHEST_DEGREE - 1, found.degree),
@@ -76,7 +79,7 @@ class Discretization:
                     near=_FINER * found.near,
                 )
             else:
-                found = replace(found, degree=found.degree + more)
+                found = replace(found, degree=min(found.degree + more, HIGHEST_DEGREE))
         return None if found == self else found
 
 
@@ -179,6 +182,11 @@ def rounding_error(degree: int, depth: float) -> float:
     (L/H)^{3/2}.
     """
     return 3e-14 * (degree / 4.0) ** 3 * max(1.0, 0.1 / depth) ** 1.5
+
+
+def workable_tolerance(tolerance: float, depth: float) -> float:
+    """The asked tolerance, or the smallest one that double precision can be expected to keep."""
+    return max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(HIGHEST_DEGREE - 2, depth))
 
 
 def _discretization(tank: Tank, tolerance: float, wavenumbers: list[float]) -> Discretization:

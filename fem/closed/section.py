@@ -17,7 +17,7 @@ the added mass of floats beside fixed beams.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf
@@ -38,6 +38,7 @@ from hydroelastic.fem.closed.discretization import (
     discretization_of_modes,
     rounding_error,
     sought_modes,
+    workable_tolerance,
 )
 from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
 from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, first_elastic, float_modes
@@ -53,13 +54,14 @@ from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline
-from hydroelastic.meshes.section import SectionSizes, SectionTriangles, section_triangles
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.section import SectionSizes, SectionTriangles, given_triangles, section_triangles
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, shapes_of_twins
 from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 Pencils = Mapping[Parity | None, Pencil]
 """By symmetry; ``None`` is the whole tank."""
 
@@ -69,8 +71,6 @@ CAUSES = ("liquid", "dry_modes", "geometry", "rounding")
 _MODES_OF_A_BEAM = 6
 # Rounding of each 1/λ by the eigen-solver, relative to the largest 1/λ.
 _ROUNDING_OF_SPREAD = 1e-15
-# The tolerance over the rounding error, so that other errors have a part of it too.
-_ROOM_FOR_ROUNDING = 5.0
 # Added mass below this part of ρ times the square (roll: fourth power) of the float's extent is rounding.
 _NO_LIQUID = 1e-9
 # α of singular points that need no smaller cells.
@@ -120,7 +120,12 @@ class DiscreteSection:
 
     @property
     def is_curved(self) -> bool:
-        return any(curve.path is not None for curve in self.outline.curves)
+        return self.is_made and any(curve.path is not None for curve in self.outline.curves)
+
+    @property
+    def is_made(self) -> bool:
+        """Whether the mesh is not one of one's own."""
+        return len(self.discretization.sizes) > 0
 
     @cached_property
     def _triangles(self) -> SectionTriangles:
@@ -147,6 +152,12 @@ class DiscreteSection:
             densities = [measure * layer.density for layer in tank.layers]
             self._liquids[degree] = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
         return self._liquids[degree]
+
+    def cells_of_layers(self) -> list[Indices]:
+        """Cells of each layer, as numbers of their corners."""
+        mesh = self._triangles
+        of_cells = np.array(mesh.names)[mesh.regions]
+        return [mesh.cells[of_cells == name] for name in dict.fromkeys(mesh.names)]
 
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""
@@ -432,28 +443,54 @@ class SectionSolution:
     def field(self, number: int) -> fem.Function:
         """ψ of a mode, counted from 0 with the growing ones first, on the mesh of its part; dimensionless, at unit
         generalized mass of that part (collective)."""
-        key, own = self.found.modes.origins[number]
-        return self.found.modes.parts[key].potential(own)
+        if number not in self._fields:
+            key, own = self.found.modes.origins[number]
+            self._fields[number] = self.found.modes.parts[key].potential(own)
+        return self._fields[number]
 
-    def elevation(self, number: int, level: StillLevel, x: Array) -> Array:
-        """Elevation of an open surface or interface in a mode at dimensionless abscissas, at unit generalized mass of
-        the whole tank; NaN beside it (collective).
+    @cached_property
+    def _fields(self) -> dict[int, fem.Function]:
+        return {}
+
+    def elevations(self, numbers: Sequence[int], level: StillLevel, x: Array) -> Array:
+        """Elevation of an open surface or interface in some modes at dimensionless abscissas, at unit generalized mass
+        of the whole tank, shape (modes, points); NaN beside it (collective).
 
         η = λ (ρψ below − ρψ above)/Δρ.
         """
-        key, _ = self.found.modes.origins[number]
-        psi = self.field(number).x.array
+        keys = [self.found.modes.origins[number][0] for number in numbers]
         name = FREE_SURFACE if level.above is None else INTERFACE
-        liquid = next(iter(self.found.modes.parts.values())).pencil.liquid
-        left = np.where(x > MIDDLE, 1.0 - x, x) if key is not None else x
-        total = np.zeros(len(x))
+        is_half = self.found.section.half
+        on_right = ((x > MIDDLE) | (x.min() >= MIDDLE)) & is_half
+        total = np.zeros((len(numbers), len(x)))
         for layer, sign in ((level.below, 1.0), (level.above, -1.0)):
             if layer is not None:
+                fields = [self.field(number) for number in numbers]
+                at = np.where(on_right, 1.0 - x, x)
                 density = sign * self.tank.layers[layer].density
-                total += density * along_level(liquid, psi[: liquid.owned], name, layer, left)
-        if key is not None:
-            total *= np.sqrt(0.5) * np.where((x > MIDDLE) & (key == "antisymmetric"), -1.0, 1.0)
-        return np.asarray(self.found.modes.values[number] * total / level.jump)
+                total += density * along_level(self.liquid, fields, name, layer, at)
+        if is_half:
+            odd = np.array([key == "antisymmetric" for key in keys])
+            total *= np.sqrt(0.5) * np.where(odd[:, None] & on_right, -1.0, 1.0)
+        return np.asarray(self.found.modes.values[list(numbers), None] * total / level.jump)
+
+    @property
+    def liquid(self) -> Liquid:
+        """ψ, of all parts."""
+        return next(iter(self.found.modes.parts.values())).pencil.liquid
+
+    @cached_property
+    def shapes(self) -> xr.Dataset:
+        """Shapes of the modes asked for and of growing ones along surfaces and bodies, in SI units (collective)."""
+        from hydroelastic.fem.closed.shapes import mode_shapes
+
+        return mode_shapes(self)
+
+    def samples(self) -> xr.Dataset | None:
+        """The same modes in the liquids on small triangles, on rank 0, in SI units (collective)."""
+        from hydroelastic.fem.closed.shapes import liquid_samples
+
+        return liquid_samples(self)
 
 
 def solve_section(
@@ -462,6 +499,7 @@ def solve_section(
     tolerance: float,
     modes: int,
     comm: MPI.Comm | None = None,
+    mesh: TaggedMesh | None = None,
     halves: bool = True,
     report: Callable[[str], None] = lambda _message: None,
 ) -> SectionSolution:
@@ -472,22 +510,27 @@ def solve_section(
         tolerance: relative error of frequencies.
         modes: how many, from the lowest.
         comm: processes.
+        mesh: one's own, straight, in m, with the names of `meshes.geometry`; on rank 0.
         halves: whether a tank that is its own mirror image is solved by halves.
         report: told of each discretization.
     """
     comm = comm or MPI.COMM_WORLD
     began = perf_counter()
     tank = physical.scaled()
-    half = halves and is_mirror_image(tank)
-    workable = max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(8, tank.depth))
+    is_given = comm.bcast(mesh is not None, root=0)
+    half = halves and not is_given and is_mirror_image(tank)
+    given = mesh.scaled(1.0 / physical.length) if mesh is not None else None
+    workable = workable_tolerance(tolerance, tank.depth)
     sought = sought_modes(tank, modes)
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):
         report("limit of infinite frequency")
-        released = DiscreteSection(comm, tank, discretization_of_limit(tank, workable), half=half, released=True)
+        own = discretization_of_limit(tank, workable)
+        released = _first_section(comm, tank, own, given, is_given=is_given, half=half, released=True)
         limit = solve_adaptive(released.discretization, lambda own: released_limit(released.changed(own)), workable)
     limited = perf_counter()
-    section = DiscreteSection(comm, tank, discretization_of_modes(tank, workable, sought), half=half)
+    own = discretization_of_modes(tank, workable, sought)
+    section = _first_section(comm, tank, own, given, is_given=is_given, half=half)
     wanted = sought.modes
 
     def analysis(discretization: Discretization) -> SectionModes:
@@ -499,7 +542,8 @@ def solve_section(
         # A tone may lie above: more modes, once.
         wanted = min(ceil(1.6 * wanted), MOST_MODES_TO_TONE)
         wider = discretization_of_modes(tank, workable, replace(sought, accurate=wanted))
-        section = section.changed(replace(wider, degree=max(wider.degree, section.discretization.degree)))
+        wider = replace(wider, degree=max(wider.degree, section.discretization.degree))
+        section = section.changed(replace(wider, sizes=() if is_given else wider.sizes))
         found = solve_adaptive(section.discretization, analysis, workable)
     solved = perf_counter()
     counted = found.modes.is_counted()
@@ -515,6 +559,24 @@ def solve_section(
         counted=counted,
         seconds=seconds,
     )
+
+
+def _first_section(
+    comm: MPI.Comm,
+    tank: Tank,
+    first: Discretization,
+    given: TaggedMesh | None,
+    *,
+    is_given: bool,
+    half: bool,
+    released: bool = False,
+) -> DiscreteSection:
+    first = replace(first, sizes=()) if is_given else first
+    section = DiscreteSection(comm, tank, first, half=half, released=released)
+    if given is not None:
+        angles = {point.point: point.largest_angle for point in section.points}
+        vars(section)["_triangles"] = given_triangles(given, angles)
+    return section
 
 
 def _with_tones(found: SectionModes, asked: int, limit: ReleasedLimit | None) -> SectionModes:

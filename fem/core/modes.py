@@ -19,6 +19,7 @@ from itertools import pairwise
 
 import numpy as np
 from dolfinx import fem
+from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 from scipy.linalg import cholesky, eigh, lapack, qr, solve_triangular
@@ -32,6 +33,8 @@ Array = NDArray[np.float64]
 HIDDEN = 1e-13
 """Modes with 1/λ below this part of the largest are lost in rounding."""
 
+# Volumes below this part of the largest are rounding.
+_NO_WORK = 1e-6
 # Up to so many unknowns LAPACK finds all pairs sooner than others some of them.
 _FEW = 120
 # The shift in parts of the smallest restoring: the lowest λ is of its size.
@@ -72,14 +75,21 @@ class Modes:
     def potential(self, number: int) -> fem.Function:
         """ψ of a mode, with the constants of its closed layers (collective)."""
         pencil, liquid = self.pencil, self.pencil.liquid
+        closed = liquid.conditions(pencil.zero).closed
         zeta, value = self.vectors[:, number], self.values[number]
         psi = pencil.potentials(zeta[:, None])[:, 0]
         # K ζ − λ T ζ = λ Σ ρ c V: the constant c of each closed layer.
         rest = pencil.stiffness @ zeta - value * (pencil.kinetic @ zeta)
         scale = 1.0 / np.sqrt(np.abs(np.diag(pencil.stiffness)) + np.diag(pencil.kinetic))
         constants = np.linalg.lstsq((pencil.volumes * scale).T, scale * rest / value, rcond=1e-9)[0]
-        for layer, constant in zip(liquid.conditions(pencil.zero).closed, constants, strict=True):
+        for layer, constant in zip(closed, constants, strict=True):
             psi[liquid.layer_of == layer] += constant / liquid.densities[layer]
+        if len(closed) > 1 and np.abs(pencil.volumes.sum(axis=0)).max() < _NO_WORK * np.abs(pencil.volumes).max():
+            # A pressure common to all layers does no work and is arbitrary: its extremes are opposite.
+            densities = np.array(liquid.densities)[liquid.layer_of]
+            high = liquid.comm.allreduce((densities * psi).max(initial=-np.inf), op=MPI.MAX)
+            low = liquid.comm.allreduce((densities * psi).min(initial=np.inf), op=MPI.MIN)
+            psi -= 0.5 * (high + low) / densities
         return liquid.function(psi)
 
 

@@ -1,7 +1,7 @@
 """Quantities of a closed tank: its natural modes, the first elastic tones of its beams, its floats, the estimates.
 
-They are taken from a field solution `tank`, a `fem.tank.solve.TankSolution`, the estimates of its beam by name, `beam`,
-and those of its floats by index, `floats`, which may be ``None``. Everything is per metre of width.
+They are taken from a field solution `tank`, a `fem.closed.section.SectionSolution`, the estimates of its beam by name,
+`beam`, and those of its floats by index, `floats`, which may be ``None``. Everything is per metre of width.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.tank.records import (
     compared,
     exact_modes,
-    first_elastic_tone,
     float_values,
     growing_motions,
     natural_modes,
+    rows,
 )
 from hydroelastic.output.tank.variables import ARRAYS
 
@@ -38,7 +38,7 @@ MODES = Group("modes", "the modes asked for, in ascending order", (
         short="bending energy", shown=".3f"),
     Quantity("residual", "relative residual of the equations", "1", "‖Kζ − λ(Mζ + ρCᵀψ)‖/‖Kζ‖ by K⁻¹", printed=False,
         contract=False),
-), record=lambda it: natural_modes(it.tank), dimension="mode", prefix="")
+), record=lambda it: natural_modes(it.tank.dataset), dimension="mode", prefix="")
 FIRST_ELASTIC_TONES: Group = Group("first_elastic_by_body", "first elastic tone of each beam", (
     TONE_BODY := Quantity("body", "number of the body", "1"),
     DRY_OMEGA := Quantity("dry_omega", "angular frequency of the first bending mode in vacuo", "rad/s", "√(EIκ₁⁴/m)",
@@ -65,7 +65,7 @@ FIRST_ELASTIC_TONES: Group = Group("first_elastic_by_body", "first elastic tone 
     ADDED_MASS_PER_LENGTH := Quantity("added_mass_per_length", "added mass of the first elastic tone", "kg/m^2",
         "(EIκ₁⁴ + sρg)/ω² − m", error="added_mass_relative_error", digits=9),
     _ADDED_MASS_ERROR, NOTE,
-),  record=lambda it: [FIRST_ELASTIC_TONES.with_nulls(first_elastic_tone(it.tank, tone)) for tone in it.tank.tones],
+),  record=lambda it: map(FIRST_ELASTIC_TONES.with_nulls, rows(it.tank.dataset, "elastic_body", "first_elastic_")),
     dimension="elastic_body", prefix="first_elastic")
 _MASS_OF_MOTION = "kg/m or, of roll, kg m"
 FLOAT_MODES: Group = Group("modes", "for each motion with restoring force, the mode of its largest participation", (
@@ -117,7 +117,7 @@ FLOATS = Group("floats", "each float", (
 GROWING = Group("growing", "motions e^{σt} of unstable floats, the fastest first", (
     GROWTH_RATE := Quantity("growth_rate", "growth rate of a motion", "1/s", "σ", error="relative_error"),
     RELATIVE_ERROR, SYMMETRY, KIND,
-), record=lambda it: growing_motions(it.tank), dimension="growing_mode")
+), record=lambda it: growing_motions(it.tank.dataset), dimension="growing_mode")
 ESTIMATES = Group("estimates",
     "estimates of the first elastic tone by [older theories](../theory_aquarium.md), by name", (
     ESTIMATE_OMEGA := Quantity("omega", "angular frequency of the tone by an older theory", "rad/s", "ω",
@@ -133,12 +133,12 @@ ESTIMATES = Group("estimates",
     BOUND_MODE := Quantity("bound_mode", "number of the mode that is bounded", "1", printed=False),
     BOUND_HOLDS := Quantity("bound_holds", "whether the bound holds", "1", printed=False, note="`null` if not checked"),
     ESTIMATE_NOTE,
-),  record=lambda it: compared(it.tank, it.beam), dimension="estimate", prefix="estimate",
+),  record=lambda it: compared(it.tank.dataset, it.beam), dimension="estimate", prefix="estimate",
     note='of one beam with free ends and `top = "free"`, else empty')
 TANK = Group("", "a closed tank", (
     MODES,
     ZERO_MODES := Quantity("zero_modes", "number of motions with ω = 0", "1",
-        value=lambda it: it.tank.modes.zero_modes),
+        value=lambda it: it.tank.dataset.attrs["zero_modes"]),
     Quantity("first_elastic", "first elastic tone of the first beam, with the keys of the next list",
         value=lambda it: next(map(FIRST_ELASTIC_TONES.evaluated, FIRST_ELASTIC_TONES.of(it)), None), variable="",
         note="`null` without a beam"),
@@ -150,21 +150,21 @@ TANK = Group("", "a closed tank", (
             contract=False),
     ), record=lambda it: exact_modes(it.tank), dimension="exact_mode"),
     SOLVER := Group("solver", "the solution of the eigenvalue problem", (
-        Quantity("pairs_converged", "number of modes that converged", "1", value=lambda it: it.modes.converged),
-        Quantity("pairs_kept", "number of modes kept", "1", value=lambda it: len(it.asked)),
+        Quantity("pairs_converged", "number of modes that converged", "1", value=lambda it: it.sizes["mode"]),
+        Quantity("pairs_kept", "number of modes kept", "1", value=lambda it: it.attrs["asked"]),
         COUNT_CONFIRMED := Quantity("count_confirmed_by_inertia",
             "whether a count by the inertia of the matrices confirms that no mode is missing",
-            value=lambda it: it.counted),
+            value=lambda it: bool(it.attrs["counted"])),
         LARGEST_RESIDUAL := Quantity("largest_residual", "largest residual of the modes", "1",
-            value=lambda it: max((mode.residual for mode in it.asked), default=0.0), shown=".1e"),
-    ), record=lambda it: it.tank, contract=False),
+            value=lambda it: float(it.residual.values[: it.attrs["asked"]].max(initial=0.0)), shown=".1e"),
+    ), record=lambda it: it.tank.dataset, contract=False),
     SIZE := Group("size", "size of the problem", (
-        CELLS := Quantity("cells", "number of cells", "1", value=lambda it: it.field.mesh.cell_count),
-        DOFS := Quantity("dofs", "number of unknowns of ψ and of the surfaces", "1", value=lambda it: it.field.dofs),
-        DEGREE := Quantity("degree", "degree of ψ", "1", value=lambda it: it.resolution.degree),
+        CELLS := Quantity("cells", "number of cells", "1", value=lambda it: it["cells"]),
+        DOFS := Quantity("dofs", "number of unknowns of ψ and of the surfaces", "1", value=lambda it: it["unknowns"]),
+        DEGREE := Quantity("degree", "degree of ψ", "1", value=lambda it: it["degree"]),
         SURFACE_UNKNOWNS := Quantity("surface_unknowns", "number of unknowns of the surfaces", "1",
-            value=lambda it: it.field.surface_unknowns),
+            value=lambda it: it["surface_unknowns"]),
         PROCESSES,
-    ), record=lambda it: it.tank, contract=False),
+    ), record=lambda it: it.tank.dataset.attrs, contract=False),
     *ARRAYS,
 ))

@@ -1,86 +1,56 @@
-"""Values of the quantities of a closed tank by key, in SI units, from its dimensionless solution."""
+"""Values of the quantities of a closed tank by key, in SI units, from the Dataset of its solution."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
-from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fractions, mode_kinds
-from hydroelastic.fem.tank.float_modes import FloatMode
-from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
-from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
+from hydroelastic.fem.closed.section import SectionSolution
 from hydroelastic.modal.estimate import Estimate, difference
 from hydroelastic.modal.tank_estimates import exact_frequencies
 from hydroelastic.output.quantities import Values
-from hydroelastic.physics.dofs import FIRST_ELASTIC
 
 if TYPE_CHECKING:
     from hydroelastic.modal.floats.estimates import FloatEstimate
 
 
-def natural_modes(solution: TankSolution) -> list[Values]:
-    """Return the modes asked for."""
-    rows = []
-    field = solution.field
-    kinds = mode_kinds(solution.asked, field.bodies, field.surfaces)
-    fractions = bending_fractions(solution.asked, field.bodies)
-    for index, mode in enumerate(solution.asked):
-        omega = solution.omega(mode.eigenvalue)
-        rows.append(
-            {
-                "omega": omega,
-                "frequency_hz": solution.units.hertz(omega / solution.units.frequency),
-                "relative_error": float(solution.relative_errors[index]),
-                "kind": kinds[index],
-                "symmetry": field.parity(index),
-                "elastic_energy_fraction": float(fractions[index]),
-                "residual": mode.residual,
-            }
-        )
-    return rows
-
-
-def first_elastic_tone(solution: TankSolution, tone: ToneSolution) -> Values:
-    """Return the first elastic tone of a beam; what is not known is left out."""
-    beam = solution.tank.beams[tone.body]
-    found: Values = {
-        "body": tone.body + 1,
-        "dry_omega": solution.omega(first_dry_eigenvalue(beam)),
-        "pressure_release_relative_error": tone.pressure_release_error,
-        "note": tone.reason,
+def rows(data: xr.Dataset, dimension: str, prefix: str = "") -> list[Values]:
+    """The variables along one dimension as records, without the prefix of their names; NaN is ``None``."""
+    own = {
+        str(name).removeprefix(prefix): variable.values.tolist()
+        for name, variable in data.data_vars.items()
+        if variable.dims == (dimension,) and str(name).startswith(prefix)
     }
-    if tone.pressure_release is not None:
-        found["pressure_release_omega"] = solution.omega(tone.pressure_release)
-    if tone.tone is not None:
-        eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
-        error = float(solution.relative_errors[tone.tone.index])
-        # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
-        shapes = solution.field.bodies[tone.body]
-        first = shapes.dofs.index(FIRST_ELASTIC)
-        added, added_error = added_mass(shapes.stiffness[first], shapes.mass[first, first], eigenvalue, error)
-        found |= {
-            "omega": solution.omega(eigenvalue),
-            "relative_error": error,
-            "index": tone.tone.index + 1,
-            "participation": tone.tone.participation,
-            "runner_up": tone.tone.runner_up,
-            "shared": tone.tone.is_shared,
-            "one_mode": tone.tone.is_of_one_mode,
-            "first_sharing_mode": tone.tone.sharing[0] + 1,
-            "last_sharing_mode": tone.tone.sharing[1] + 1,
-            "added_mass_per_length": float(added) * solution.units.mass_per_length / beam.length,
-            "added_mass_relative_error": float(added_error),
-        }
-        if tone.tone.is_shared:
-            found["note"] = "the tone is shared between hybrid modes; see the pressure-release tone"
-    return found
+    return [
+        {name: None if value != value else value for name, value in zip(own, row, strict=True)}
+        for row in zip(*own.values(), strict=True)
+    ]
 
 
-def float_values(solution: TankSolution, index: int, estimates: dict[str, FloatEstimate] | None) -> Values:
+def natural_modes(data: xr.Dataset) -> list[Values]:
+    """Return the modes asked for."""
+    return [
+        row | {"frequency_hz": row["omega"] / (2.0 * np.pi), "symmetry": row["symmetry"] or None}
+        for row in rows(data, "mode")[: data.attrs["asked"]]
+    ]
+
+
+def growing_motions(data: xr.Dataset) -> list[Values]:
+    """Return the motions of unstable floats, e^{σt}, fastest first."""
+    found = rows(data, "growing_mode", "growing_")
+    rates = rows(data, "growing_mode")
+    return [
+        row | {"growth_rate": rate["growth_rate"], "symmetry": row["symmetry"] or None}
+        for row, rate in zip(found, rates, strict=True)
+    ]
+
+
+def float_values(solution: SectionSolution, index: int, estimates: dict[str, FloatEstimate] | None) -> Values:
     """Return hydrostatics, added mass and modes of a float, its estimates beside its mode of heave."""
-    body = solution.physical.floats[index]
-    modes = [_float_mode(solution, mode) for mode in solution.float_modes if mode.body == index]
+    data, body = solution.dataset, solution.physical.floats[index]
+    modes = [mode for mode in rows(data, "float_mode", "float_mode_") if mode["body"] == index + 1]
     heave: Values = next((mode for mode in modes if mode["motion"] == "heave"), {})
     return {
         **vars(body.hydrostatics),
@@ -101,97 +71,54 @@ def float_values(solution: TankSolution, index: int, estimates: dict[str, FloatE
     }
 
 
-def _high_frequency(solution: TankSolution, index: int) -> Values | None:
-    if solution.added_mass is None:
+def _high_frequency(solution: SectionSolution, index: int) -> Values | None:
+    data = solution.dataset
+    if "infinite_frequency_added_mass" not in data:
         return None
-    turns = solution.tank.floats[index].is_rotation
-    units = solution.units.density * solution.units.length ** (2.0 + turns[:, None] + turns)
-    matrix = solution.added_mass.block(solution.tank, index) * units
-    return {"added_mass": matrix, "relative_error": solution.added_mass.error}
-
-
-def _float_mode(solution: TankSolution, mode: FloatMode) -> Values:
-    found: Values = {"motion": str(mode.motion), "note": mode.reason}
-    if mode.index is not None:
-        unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
-        eigenvalue = float(solution.modes.eigenvalues[mode.index])
-        error = float(solution.relative_errors[mode.index])
-        added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)
-        found |= {
-            "index": mode.index + 1,
-            "omega": solution.omega(eigenvalue),
-            "relative_error": error,
-            "modal_mass": mode.modal_mass * unit,
-            "runner_up_modal_mass": mode.runner_up * unit if np.isfinite(mode.runner_up) else None,
-            "shared": mode.is_shared,
-            "added_mass": added * unit,
-            "added_mass_relative_error": added_error,
-        }
-        if mode.is_shared:
-            found["note"] = "shared with waves or other bodies: no single mode represents this motion"
-    return found
-
-
-def growing_motions(solution: TankSolution) -> list[Values]:
-    """Return the motions of unstable floats, e^{σt}, fastest first."""
-    field, modes = solution.field, solution.modes.growing
-    rows = [
-        {
-            "growth_rate": solution.omega(-mode.eigenvalue),
-            "relative_error": float(error),
-            "symmetry": field.parts[part].parity,
-            "kind": kind,
-        }
-        for mode, (part, _), error, kind in zip(
-            modes,
-            field.growing_origins,
-            solution.growing_errors,
-            mode_kinds(modes, field.bodies, field.surfaces),
-            strict=True,
-        )
-    ]
-    return sorted(rows, key=lambda row: -row["growth_rate"])
-
-
-def compared(solution: TankSolution, estimates: dict[str, Estimate]) -> dict[str, Values]:
-    """Return each estimate beside the first elastic tone of the first beam, by name."""
-    first = first_elastic_tone(solution, solution.tones[0]) if solution.tones and estimates else {}
-    return {name: _estimate(solution, estimate, first) for name, estimate in estimates.items()}
-
-
-def _estimate(solution: TankSolution, estimate: Estimate, first: Values) -> Values:
+    counts = [len(solution.physical.floats[other].motions) for other in solution.tank.rigid]
+    place = solution.tank.rigid.index(index)
+    own = slice(sum(counts[:place]), sum(counts[: place + 1]))
     return {
-        **vars(estimate),
-        "difference": difference(estimate.omega, first.get("omega")),
-        "added_mass_difference": difference(estimate.added_mass_per_length, first.get("added_mass_per_length")),
-        "difference_to_pressure_release": difference(estimate.omega, first.get("pressure_release_omega")),
-        "bound_mode": estimate.mode_index,
-        "bound_holds": _bound_holds(solution, estimate),
+        "added_mass": data.infinite_frequency_added_mass.values[own, own],
+        "relative_error": float(data.infinite_frequency_added_mass_relative_error),
     }
 
 
-def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
+def compared(data: xr.Dataset, estimates: dict[str, Estimate]) -> dict[str, Values]:
+    """Return each estimate beside the first elastic tone of the first beam, by name."""
+    first: Values = next(iter(rows(data, "elastic_body", "first_elastic_")), {})
+    return {
+        name: {
+            **vars(estimate),
+            "difference": difference(estimate.omega, first.get("omega")),
+            "added_mass_difference": difference(estimate.added_mass_per_length, first.get("added_mass_per_length")),
+            "difference_to_pressure_release": difference(estimate.omega, first.get("pressure_release_omega")),
+            "bound_mode": estimate.mode_index,
+            "bound_holds": _bound_holds(data, estimate),
+        }
+        for name, estimate in estimates.items()
+    }
+
+
+def _bound_holds(data: xr.Dataset, estimate: Estimate) -> bool | None:
     """Whether an upper bound is above the bounded frequency; ``None`` if unknown or without a bound."""
-    if estimate.omega is None or estimate.mode_index is None:
+    places = {"above_mode_index": "", "above_pressure_release_tone": "released_"}
+    prefix = places.get(estimate.bound)
+    if estimate.omega is None or estimate.mode_index is None or prefix is None or f"{prefix}omega" not in data:
         return None
+    values, errors = data[f"{prefix}omega"].values, data[f"{prefix}relative_error"].values
     number = estimate.mode_index - 1
-    if estimate.bound == "above_mode_index":
-        values, errors = solution.modes.eigenvalues, solution.relative_errors
-    elif estimate.bound == "above_pressure_release_tone" and solution.tones:
-        values = np.array(solution.tones[0].pressure_release_values)
-        errors = np.full(len(values), solution.tones[0].pressure_release_error or 0.0)
-    else:
-        return None
     if number >= len(values) or np.isnan(errors[number]):
         return None
     # The field solution is itself an upper bound: its error is allowed for.
-    return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))
+    return bool(estimate.omega >= values[number] * (1.0 - errors[number] - 1e-9))
 
 
-def exact_modes(solution: TankSolution) -> list[Values]:
+def exact_modes(solution: SectionSolution) -> list[Values]:
     """Return the exact frequencies of the modes asked for, of tanks that have a closed form."""
     formula, frequencies = exact_frequencies(solution.physical, solution.count)
+    found: list[Any] = solution.dataset.omega.values[: solution.dataset.attrs["asked"]].tolist()
     return [
-        {"formula": formula, "omega": exact, "difference": solution.omega(mode.eigenvalue) / exact - 1.0}
-        for mode, exact in zip(solution.asked, frequencies, strict=False)
+        {"formula": formula, "omega": exact, "difference": omega / exact - 1.0}
+        for omega, exact in zip(found, frequencies, strict=False)
     ]

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal
 
 from mpi4py import MPI
+from pydantic import BaseModel
 
 from hydroelastic.fem.sweep.mode_vectors import ModeVectors, array_of_text, array_text
 from hydroelastic.output.plots import DEFAULT_PICTURES
@@ -19,8 +20,7 @@ from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.read import Scene
-from hydroelastic.scenes.sweep.families import Family, identity, liquids_of
+from hydroelastic.scenes.read import Scene, read_scene
 
 Status = Literal["ok", "unconverged", "failed"]
 
@@ -88,18 +88,42 @@ class Task:
         key: of the point in the journal.
         scene: of the point.
         name: of its folder, if it has one.
-        family: points that share their liquid with it, if there are any.
     """
 
     key: str
     scene: Scene
     name: str
-    family: Family | None
 
 
-def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
+def identity(scene: Scene) -> str:
+    """Return what identifies a scene: its values, and hashes of the bytes of all files that it names, of its section
+    too."""
+    texts = [scene.model_dump_json()]
+    for named in _paths(scene):
+        file = scene.folder / named
+        # The names of the parts of a mesh, and the numbers of XDMF, stand in files beside it.
+        beside = (file.with_name(f"{file.name}.names.json"), file.with_suffix(".h5"))
+        texts += [f"{one.name} {sha256(one.read_bytes()).hexdigest()}" for one in (file, *beside) if one.is_file()]
+    if scene.kind == "roll" and scene.section_file is not None:
+        with suppress(SceneError):
+            texts.append(identity(read_scene(scene.section_file)))
+    return "\n".join(texts)
+
+
+def _paths(value: Any) -> Iterator[Path]:
+    if isinstance(value, Path):
+        yield value
+    elif isinstance(value, BaseModel):
+        for _, entry in value:
+            yield from _paths(entry)
+    elif isinstance(value, tuple):
+        for entry in value:
+            yield from _paths(entry)
+
+
+def point_key(scene: Scene, options: PointOptions) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
-    content = [options.estimates, options.follow, str(options.pictures or ""), family and family.name, versions()]
+    content = [options.estimates, options.follow, str(options.pictures or ""), versions()]
     return sha256(f"{identity(scene)}{json.dumps(content, sort_keys=True)}".encode()).hexdigest()
 
 
@@ -114,8 +138,7 @@ def solve_point(task: Task, options: PointOptions) -> SolvedPoint:
 def _solution(task: Task, options: PointOptions) -> Any:
     run = runner_of(task.scene)
     solve: Callable[..., Any] = run.solve if options.estimates else run.solve_alone or run.solve
-    of_family = solve if task.family is None else partial(solve, liquids=liquids_of(task.family))
-    return of_family(task.scene, MPI.COMM_WORLD, lambda _message: None)
+    return solve(task.scene, MPI.COMM_WORLD, lambda _message: None)
 
 
 def _solved(task: Task, solution: Any, options: PointOptions) -> SolvedPoint:
@@ -125,7 +148,7 @@ def _solved(task: Task, solution: Any, options: PointOptions) -> SolvedPoint:
         outcome = run.written(outcome, options.pictures / task.name, images=DEFAULT_PICTURES)
     modes = None
     if options.follow and isinstance(scene, TankScene) and not scene.is_open:
-        from hydroelastic.fem.tank.mode_vectors import mode_vectors
+        from hydroelastic.fem.closed.shapes import mode_vectors
 
         modes = mode_vectors(solution.tank)
     return SolvedPoint(

@@ -17,7 +17,6 @@ from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
-from hydroelastic.scenes.sweep.families import families
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, failed, point_key
 from hydroelastic.scenes.sweep.quantities import columns, quantities, shown_columns
@@ -130,7 +129,6 @@ class _Solver:
         self.source, self.grid, self.overrides = source, grid, tuple(overrides)
         self.journal, self.options = journal, options
         self._scenes: dict[str, Scene | SceneError] = {}
-        self.families = families([self.scene(point) for point in grid.points])
         self.resumed = 0
 
     def scene(self, point: Point) -> Scene | SceneError:
@@ -152,16 +150,13 @@ class _Solver:
             if isinstance(scene, SceneError):
                 keys.append("")
                 continue
-            family = self.families.of(scene)
-            keys.append(point_key(scene, of_points, family))
+            keys.append(point_key(scene, of_points))
             # Different values may give one scene.
             if keys[-1] not in self.journal:
-                tasks[keys[-1]] = Task(key=keys[-1], scene=scene, name=f"{number:04d}", family=family)
-        # Those of one family follow each other.
-        ordered = sorted(tasks.values(), key=lambda task: task.family.name if task.family is not None else "")
+                tasks[keys[-1]] = Task(key=keys[-1], scene=scene, name=f"{number:04d}")
         self.resumed += sum(key in self.journal for key in keys)
-        for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
-            if point_key(task.scene, of_points, task.family) != task.key:
+        for number, (task, point) in enumerate(solved_tasks(list(tasks.values()), of_points, self.options.jobs), 1):
+            if point_key(task.scene, of_points) != task.key:
                 wrong = "a file that the scene names has changed while the sweep was running"
                 remedy = "Start the sweep again: it solves all points with the new file"
                 raise SceneError(Problem(wrong=wrong, remedy=remedy), file=self.source.file)

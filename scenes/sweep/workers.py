@@ -18,15 +18,10 @@ from multiprocessing import get_context, parent_process
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, Task, solve_point
 
-# Points that share one liquid: of fewer, a second process saves less than its start, 0.6 s, and a liquid of its own
-# take. Measured on a beam in a tank: at 2.4 ms a point this is even at 1000.
-_FEWEST_OF_FAMILY = 1000
-
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
     """Solve tasks, and yield each as soon as it is solved."""
-    families = {task.family and task.family.name for task in tasks}
-    if jobs == 1 or len(tasks) < (_FEWEST_OF_FAMILY if len(families) == 1 and None not in families else 2):
+    if jobs == 1 or len(tasks) < 2:
         for task in tasks:
             yield task, solve_point(task, options)
         return

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
-from hydroelastic.fem.cost import cost
-from hydroelastic.fem.tank.resolution import (
-    Resolution,
-    infinite_frequency_resolution,
-    initial_resolution,
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.closed.discretization import (
+    Discretization,
+    discretization_of_limit,
+    discretization_of_modes,
+    sought_modes,
     workable_tolerance,
 )
+from hydroelastic.fem.closed.section import DiscreteSection
+from hydroelastic.fem.cost import cost
+from hydroelastic.fem.tank.mesh import unknown_count
 from hydroelastic.meshes.geometry import BAFFLE
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.output.sections import Section
@@ -51,30 +56,28 @@ def modelled_tank(scene: TankParts, *, requests: Iterable[str], scale: Section) 
 def _sizes(scene: TankParts) -> Iterator[str]:
     """Yield the first attempt, and why it should be enough; the built-in meshes are made to count their unknowns."""
     tank, user_mesh = physical_tank(scene).scaled(), _user_mesh(scene)
-    tolerance = scene.accuracy.tolerance
-    tones = expected_tones(tank)
-    motions = ends_of_motions(tank)
-    resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
+    tolerance, workable = scene.accuracy.tolerance, workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    sought = sought_modes(tank, scene.accuracy.modes)
     half = scene.mesh is None and is_mirror_image(tank)
-    words, unknowns = _size(tank, resolution, user_mesh, half=half)
+    discretization = discretization_of_modes(tank, workable, sought)
+    words, unknowns = _size(tank, discretization, user_mesh, half=half)
     yield f"First attempt: {words}."
     if user_mesh is not None and BAFFLE in user_mesh.facet_names:
         yield f"  The mesh has {user_mesh.facet_measure(BAFFLE):.5g} m of baffles, with ψ_n = 0 on both sides."
-    if resolution.modes > scene.accuracy.modes:
+    if sought.modes > scene.accuracy.modes:
         what = (
             "the modes that share the first elastic tone"
             if tank.elastic
             else "the mode with the largest motion of a float"
         )
-        yield f"  {resolution.modes} modes are computed, to find {what}."
+        yield f"  {sought.modes} modes are computed, to find {what}."
     dry_modes = "dry modes extend beyond that wave until their energy is negligible, " if tank.elastic else ""
     where = "tips" if not tank.hulls else "tips, corners and contact points"
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
-        f"{dry_modes}and the rings end where the singularity at the {where} is negligible. "
+        f"{dry_modes}and those at the {where} follow the singularity there. "
         "The solution estimates its errors and is refined accordingly."
     )
-    workable = workable_tolerance(tolerance, tank.depth)
     if workable > tolerance:
         yield f"  Double precision cannot reach {tolerance:g} here: the tolerance is {workable:.0e} instead."
     limits = [
@@ -82,14 +85,13 @@ def _sizes(scene: TankParts) -> Iterator[str]:
         *(["the added mass of the floats"] if tank.rigid and tank.has_infinite_frequency_limit else []),
     ]
     if limits:
-        limit = infinite_frequency_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
-        size, more = _size(tank, limit, user_mesh, half=half, infinite_frequency=scene.mesh is None)
+        size, more = _size(tank, discretization_of_limit(tank, workable), user_mesh, half=half, released=True)
         unknowns += more
         two = "in the limit of infinite frequency, with ρψ continuous"
         where = "with ψ = 0 on the water" if len(tank.layers) == 1 else two
         yield f"In addition, {' and '.join(limits)} {where}: {size}."
         yield "  There are no waves to resolve, but a stronger singularity at the tips."
-    yield str(cost(unknowns, resolution.degree, scene.accuracy.modes, "section", parts=1 + half))
+    yield str(cost(unknowns, discretization.degree, scene.accuracy.modes, "section", parts=1 + half))
 
 
 def _user_mesh(scene: TankParts) -> TaggedMesh | None:
@@ -102,26 +104,17 @@ def _user_mesh(scene: TankParts) -> TaggedMesh | None:
 
 
 def _size(
-    tank: Tank, resolution: Resolution, user_mesh: TaggedMesh | None, *, half: bool, infinite_frequency: bool = False
+    tank: Tank, own: Discretization, user_mesh: TaggedMesh | None, *, half: bool, released: bool = False
 ) -> tuple[str, int]:
-    from hydroelastic.fem.tank.mesh import make_mesh, unknown_count
-
-    mesh = (
-        user_mesh
-        if user_mesh is not None
-        else make_mesh(tank, resolution, half=half, infinite_frequency=infinite_frequency)
-    )
+    section = DiscreteSection(MPI.COMM_SELF, tank, own, half=half, released=released)
+    meshes = [user_mesh.cells] if user_mesh is not None else section.cells_of_layers()
+    cells = sum(map(len, meshes))
+    unknowns = sum(unknown_count(len(np.unique(mesh)), len(mesh), own.degree) for mesh in meshes)
     where = " in half the tank" if half else ""
     twice = ", for symmetric and for antisymmetric modes" if half else ""
-    layers = 1 if infinite_frequency else len(tank.layers)
-    unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
-    parts = [
-        f"degree {resolution.degree}",
-        f"{len(mesh.cells)} triangles{where}",
-        f"{unknowns} unknowns of ψ{twice}",
-    ]
+    parts = [f"degree {own.degree}", f"{cells} triangles{where}", f"{unknowns} unknowns of ψ{twice}"]
     if tank.elastic:
-        parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.elastic)} dry modes")
+        parts.append(f"{' + '.join(str(own.dry_modes[index]) for index in tank.elastic)} dry modes")
     return ", ".join(parts), unknowns
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from hydroelastic.fem.bodies.registry import expected_tones
+from hydroelastic.fem.closed.discretization import expected_tone
 from hydroelastic.modal.beam.beam_shapes import first_bending
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count, zero_stiffness_motions
 from hydroelastic.physics.symmetry import is_mirror_image
@@ -102,8 +102,8 @@ def _shared_tone(scene: TankParts) -> Iterator[str]:
     if len(tank.layers) > 1 or tank.top != "free" or not tank.levels[0].is_open:
         return
     # In units of the tank λ = ω² L/g.
-    for (index, beam), tone in zip(tank.beams.items(), expected_tones(tank.scaled()), strict=True):
-        ratio = tone * beam.length / tank.length
+    for index, beam in tank.beams.items():
+        ratio = expected_tone(tank.scaled(), index) * beam.length / tank.length
         if ratio > 1 and beam.mass_per_length < tank.layers[0].density * beam.length:
             yield (
                 f"Beam {index + 1}: ω² l/g of its first elastic tone is about {ratio:.2g}. Above one, the tone "

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
+from hydroelastic.fem.closed.section import SectionSolution
 from hydroelastic.fem.progress import Report
 from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
@@ -31,14 +32,14 @@ class EstimatedTank:
     """
 
     scene: TankScene
-    tank: TankSolution
+    tank: SectionSolution
     beam: dict[str, Estimate] = field(default_factory=dict)
     floats: dict[int, dict[str, FloatEstimate]] | None = None
 
     @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the tolerance is not kept; empty if it is."""
-        return self.tank.reasons
+        return tuple(self.tank.dataset.attrs["reasons"])
 
 
 def solve_scene(

@@ -189,26 +189,27 @@ class _Volumes:
 
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:
+    """The largest eigenvalues of a symmetric matrix, descending, and their vectors."""
     size = len(operator)
-    if size <= max(_FEW, 3 * count):
-        values, vectors = eigh(operator, subset_by_index=(size - count, size - 1), driver="evr", check_finite=False)
-        return values[::-1], vectors[:, ::-1]
-    solver = SLEPc.EPS().create(PETSc.COMM_SELF)
-    matrix = PETSc.Mat().createDense(operator.shape, array=np.asfortranarray(operator), comm=PETSc.COMM_SELF)
-    solver.setOperators(matrix)
-    solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
-    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
-    solver.setDimensions(count)
-    solver.setTolerances(1e-14)
-    solver.solve()
-    if solver.getConverged() < count:
-        raise EigenSolverError(f"{solver.getConverged()} of {count} modes converged")
-    vector = matrix.createVecRight()
-    pairs = []
-    for number in range(count):
-        value = solver.getEigenpair(number, vector).real
-        pairs.append((value, vector.array.copy()))
-    return np.array([value for value, _ in pairs]), np.array([one for _, one in pairs]).T
+    if size > max(_FEW, 3 * count):
+        solver = SLEPc.EPS().create(PETSc.COMM_SELF)
+        matrix = PETSc.Mat().createDense(operator.shape, array=np.asfortranarray(operator), comm=PETSc.COMM_SELF)
+        solver.setOperators(matrix)
+        solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
+        solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+        solver.setDimensions(count)
+        solver.setTolerances(1e-14)
+        solver.solve()
+        # Under a large shift eigenvalues are too close to each other for Krylov's method.
+        if solver.getConverged() >= count:
+            vector, vectors = matrix.createVecRight(), np.empty((size, count))
+            values = np.empty(count)
+            for number in range(count):
+                values[number] = solver.getEigenpair(number, vector).real
+                vectors[:, number] = vector.array
+            return values, vectors
+    values, vectors = eigh(operator, subset_by_index=(size - count, size - 1), driver="evr", check_finite=False)
+    return values[::-1], vectors[:, ::-1]
 
 
 def count_below(pencil: Pencil, value: float) -> int:

@@ -65,21 +65,20 @@ class Discretization:
         if causes["dry_modes"] > _NEGLIGIBLE:
             factor = min(max(1.3, (2.0 * causes["dry_modes"]) ** (1.0 / 6.0)), 2.0)
             found = replace(found, dry_modes=tuple(min(MOST_SHAPES, ceil(factor * count)) for count in found.dry_modes))
-        if causes["geometry"] > _NEGLIGIBLE and found.geometry_degree < HIGHEST_DEGREE:
-            found = replace(found, geometry_degree=found.geometry_degree + 2)
+        is_coarse = False
+        if causes["geometry"] > _NEGLIGIBLE:
+            is_coarse = found.geometry_degree >= HIGHEST_DEGREE
+            found = replace(found, geometry_degree=min(found.geometry_degree + 2, HIGHEST_DEGREE))
         if causes["liquid"] > _NEGLIGIBLE:
             # One degree gains about a factor of ten.
             more = 1 if causes["liquid"] < 8.0 else 2
             if found.degree + more > HIGHEST_DEGREE and self.sizes:
-                found = replace(
-                    found,
-                    degree=max(HIGHEST_DEGREE - 1, found.degree),
-                    sizes=tuple(_FINER * size for size in found.sizes),
-                    bulk=_FINER * found.bulk,
-                    near=_FINER * found.near,
-                )
+                is_coarse, found = True, replace(found, degree=max(HIGHEST_DEGREE - 1, found.degree))
             else:
                 found = replace(found, degree=min(found.degree + more, HIGHEST_DEGREE))
+        if is_coarse and self.sizes:
+            sizes = tuple(_FINER * size for size in found.sizes)
+            found = replace(found, sizes=sizes, bulk=_FINER * found.bulk, near=_FINER * found.near)
         return None if found == self else found
 
 

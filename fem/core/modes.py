@@ -88,7 +88,10 @@ class Modes:
         constants = np.linalg.lstsq((pencil.volumes * scale).T, scale * rest / value, rcond=1e-9)[0]
         for layer, constant in zip(pencil.closed, constants, strict=True):
             psi[liquid.layer_of == layer] += constant / liquid.densities[layer]
-        if len(pencil.closed) > 1 and np.abs(pencil.volumes.sum(axis=0)).max() < _NO_WORK * np.abs(pencil.volumes).max():
+        if (
+            len(pencil.closed) > 1
+            and np.abs(pencil.volumes.sum(axis=0)).max() < _NO_WORK * np.abs(pencil.volumes).max()
+        ):
             # A pressure common to all layers does no work and is arbitrary: its extremes are opposite.
             densities = np.array(liquid.densities)[liquid.layer_of]
             high = liquid.comm.allreduce((densities * psi).max(initial=-np.inf), op=MPI.MAX)

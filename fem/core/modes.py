@@ -208,6 +208,10 @@ def _largest(operator: Array, count: int) -> tuple[Array, Array]:
     solver.setDimensions(count)
     solver.setTolerances(1e-14)
     solver.solve()
+    if solver.getConverged() < count and solver.getType() != SLEPc.EPS.Type.LAPACK:
+        # Growth far beyond the waves: iterations do not tell these apart.
+        solver.setType(SLEPc.EPS.Type.LAPACK)
+        solver.solve()
     if solver.getConverged() < count:
         raise EigenSolverError(f"{solver.getConverged()} of {count} modes converged")
     vector = matrix.createVecRight()

@@ -1,17 +1,15 @@
 # # A beam afloat in a tank
 #
-# The flagship of this project on one page: the equations, the same in UFL, the eigenproblem by SLEPc, and the error
-# of
-# each frequency. The solver does the same for all tanks (`fem/core`); a test runs this page.
+# The flagship of this project on one page: the equations, the same in UFL, the eigenproblem by SLEPc, and the error of
+# each frequency. A test runs this page.
 #
 # **Strong form.** The displacement potential $\psi$ of a liquid at rest in $0<x<L$, $-H<y<0$ obeys
 #
 # $$\Delta\psi = 0, \qquad \partial_n\psi = 0 \text{ on walls}, \qquad \partial_y\psi = \zeta \text{ on } y = 0,$$
 #
 # where $\zeta$ is the elevation $\eta$ of the free surface, and on the beam its deflection $w=\sum a_i\varphi_i$ in
-# its dry modes. With the
-# time factor $e^{-i\omega t}$ the pressures balance: $\omega^2\psi = g\eta$, and $EIw'''' - m\omega^2 w =
-# \omega^2\rho\psi$.
+# its dry modes. With the time factor $e^{-i\omega t}$ the pressures balance: $\omega^2\psi = g\eta$, and
+# $EIw'''' - m\omega^2 w = \omega^2\rho\psi$.
 #
 # **Weak form.** For all $q$, and for all variations of $\zeta=(a,\eta)$ that keep the volume,
 #

@@ -15,9 +15,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.geometry import INTERFACE, LOWER_LIQUID
-from hydroelastic.meshes.tagged_mesh import MisplacedError
+from hydroelastic.meshes.tagged_mesh import MisplacedError, NodedMesh
 
 _DIM = 3
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.compat import distribute_entity_data, given_partition
 from hydroelastic.meshes.curved_cells import geometry_element
 from hydroelastic.meshes.edges import edges_of
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.tagged_mesh import NodedMesh, TaggedMesh
 from hydroelastic.physics.arrays import FloatArray
 
 
@@ -49,24 +49,6 @@ class TankMesh:
     def cell_count(self) -> int:
         """Number of cells over all processes."""
         return int(self.mesh.topology.index_map(self.mesh.topology.dim).size_global)
-
-
-@dataclass(frozen=True, kw_only=True)
-class NodedMesh:
-    """A mesh of simplices of one degree in plain arrays, with its nodes in the order of dolfinx."""
-
-    cell: str  # "triangle" or "tetrahedron"
-    degree: int  # of the geometry
-    points: NDArray[np.float64]  # nodes, m or dimensionless, shape (nodes, dim)
-    # numbers of each cell's nodes in the order of ``basix.ufl.element("Lagrange", cell, degree)``, the corners first,
-    # shape (cells, nodes per cell)
-    cells: NDArray[np.int64]
-    cell_tags: NDArray[np.int32]  # group of each cell, shape (cells,)
-    facets: NDArray[np.int64]  # numbers of the corners of the tagged facets, shape (facets, dim)
-    facet_tags: NDArray[np.int32]  # group of each of them, shape (facets,)
-    cell_names: dict[str, int]  # physical name → tag, of cells
-    facet_names: dict[str, int]  # physical name → tag, of facets
-    deviation: float = 0.0  # see `TankMesh`
 
 
 def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:

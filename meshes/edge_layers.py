@@ -20,7 +20,7 @@ import basix
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.distribute import NodedMesh
+from hydroelastic.meshes.tagged_mesh import NodedMesh
 
 _Ints = NDArray[np.int64]
 

@@ -29,12 +29,11 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import INTERFACE
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.outline import Curve, Outline, Point, as_points
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.tagged_mesh import MeshError, NodedMesh, TaggedMesh
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -88,6 +87,11 @@ class SectionTriangles:
     regions: Indices
     chains: list[Indices]
     parameters: list[Array]
+
+    def of_layers(self) -> list[Indices]:
+        """The cells of each physical name."""
+        of_cells = np.array(self.names)[self.regions]
+        return [self.cells[of_cells == name] for name in dict.fromkeys(self.names)]
 
     def noded(self, powers: Mapping[Point, int], degree: int) -> NodedMesh:
         """The mesh with cells r = sᵐ, of one degree of the geometry, at least the largest m.

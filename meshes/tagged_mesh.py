@@ -101,3 +101,21 @@ class TaggedMesh:
             curved=self.curved and replace(self.curved, nodes=self.curved.nodes * factor),
             deviation=replace(self.deviation, distance=self.deviation.distance * factor),
         )
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodedMesh:
+    """A mesh of simplices of one degree in plain arrays, with its nodes in the order of dolfinx."""
+
+    cell: str  # "triangle" or "tetrahedron"
+    degree: int  # of the geometry
+    points: NDArray[np.float64]  # nodes, m or dimensionless, shape (nodes, dim)
+    # numbers of each cell's nodes in the order of ``basix.ufl.element("Lagrange", cell, degree)``, the corners first,
+    # shape (cells, nodes per cell)
+    cells: NDArray[np.int64]
+    cell_tags: NDArray[np.int32]  # group of each cell, shape (cells,)
+    facets: NDArray[np.int64]  # numbers of the corners of the tagged facets, shape (facets, dim)
+    facet_tags: NDArray[np.int32]  # group of each of them, shape (facets,)
+    cell_names: dict[str, int]  # physical name → tag, of cells
+    facet_names: dict[str, int]  # physical name → tag, of facets
+    deviation: float = 0.0  # of the edges from the curves meshed, in units of length; zero where that is not known

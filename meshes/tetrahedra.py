@@ -12,10 +12,9 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.geometry import LIQUID
 from hydroelastic.meshes.surfaces import Surface
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MeshError, NodedMesh
 
 _TETRAHEDRON, _TRIANGLE = "tetrahedron", "triangle"
 # Smallest Jacobian of an accepted cell over that of the straight cell.

@@ -19,7 +19,6 @@ from scipy.spatial import cKDTree
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
 from hydroelastic.meshes.discrete_hull import add_hulls, join_hulls, release_numbers
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.edge_layers import with_edge_layers
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE, INTERFACE, LIQUID, LOWER_LIQUID, UPPER_LIQUID
@@ -27,7 +26,7 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.refinement import APART
 from hydroelastic.meshes.surfaces import Surface, circle_of, surface_of
-from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, TooManyCellsError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, NodedMesh, TooManyCellsError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file
 from hydroelastic.meshes.volume_solids import (

@@ -16,12 +16,11 @@ import gmsh
 import numpy as np
 
 from hydroelastic.meshes.cut_volume import cut_volume, with_regions
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.meshes.geometry import BAFFLE, FREE_SURFACE
 from hydroelastic.meshes.inner_walls import boundary_facets, require_declared_walls
-from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError
+from hydroelastic.meshes.tagged_mesh import FARTHEST, MeshError, NodedMesh
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, checked, mesh_volume, read_gmsh
 from hydroelastic.physics.level_tank import FilePlan
 

@@ -4,10 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 import numpy as np
+import pyvista
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PathCollection, PolyCollection
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.path import Path as Outline
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
+from PIL import Image
 
 from hydroelastic.fem.progress import Report
 from hydroelastic.fem.shape_curves import FloatSection, SectionField, SurfaceCurve
@@ -25,8 +38,8 @@ from hydroelastic.output.plots import (
     new_page,
     page_box,
     page_style,
-    pixels,
     plotter,
+    without_opacity,
     write_caption,
     write_gif,
     write_keys,
@@ -34,13 +47,8 @@ from hydroelastic.output.plots import (
     write_title,
 )
 
-if TYPE_CHECKING:
-    import pyvista
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-
 Array = NDArray[np.float64]
+_Coloured: TypeAlias = tuple[Image.Image, Outline]  # pixels of ψ, lines of equal ψ
 
 _LOWER, _UPPER = "#bcd7ef", "#f0dca4"  # of liquids beyond their still levels
 # Colour, width, edge, its colour, dashes of lines; widths in points.
@@ -169,30 +177,37 @@ def draw_sections(fields: Sequence[SectionField], names: Sequence[str], sheets: 
     """Draw modes of one tank with axes, colour bar and keys, and all of them as panels of an overview."""
     views, pages = [View(field) for field in fields], _Pages(sheets.options.width)
     with page_style():
-        _draw_overview(sheets, views, pages)
-        for number, (field, view, name) in enumerate(zip(fields, views, names, strict=True), 1):
+        overview, panels = _overview(sheets, views)
+        for number, (view, name, axes) in enumerate(zip(views, names, panels, strict=True), 1):
             report(f"picture {number} of {len(fields)}")
-            sheets.save(pages.of(view).drawn(field, field.title), name)
+            page = pages.of(view)
+            page.draw(view.field, view.field.title)
+            sheets.save(page.figure, name, page.pixels)
+            _draw(axes, view.field, view, page.coloured, thin=0.62)
+        sheets.save(overview, "overview")
 
 
 def draw_motion(field: SectionField, name: str, sheets: Sheets) -> None:
     """Draw a motion e^{−iωt} at t = 0, in the scales of its largest values."""
     with page_style():
         page = _Page(View(field.mapped(np.abs)), sheets.options.width)
-        sheets.save(page.drawn(field.at(0.0), field.title), name)
+        page.draw(field.at(0.0), field.title)
+        sheets.save(page.figure, name)
 
 
 def animate_motion(field: SectionField, name: str, sheets: Sheets) -> None:
     """Draw a period of a motion e^{−iωt} as a GIF, in the scales of its largest values."""
     with page_style():
         page = _Page(View(field.mapped(np.abs)), sheets.options.animation_width)
-        instants = ((field.at(part), f"{field.title}, t = {part:.2f} T") for part in np.arange(FRAMES) / FRAMES)
-        write_gif(
-            [pixels(page.drawn(*instant)) for instant in instants], sheets.folder / f"{name}.gif", kept=mode_colours()
-        )
+        images = []
+        for part in np.arange(FRAMES) / FRAMES:
+            page.draw(field.at(part), f"{field.title}, t = {part:.2f} T")
+            images.append(page.pixels())
+        write_gif(images, sheets.folder / f"{name}.gif", kept=mode_colours())
 
 
-def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None:
+def _overview(sheets: Sheets, views: Sequence[View]) -> tuple[Figure, list[Axes]]:
+    """A page with a panel for each mode, which are still empty."""
     fields = [view.field for view in views]
     aspect = max((view.top - view.bottom) / view.field.length for view in views)
     most = 2 if aspect < 0.35 else 3 if aspect < 0.9 else 5
@@ -205,22 +220,22 @@ def _draw_overview(sheets: Sheets, views: Sequence[View], pages: _Pages) -> None
     if any(view.cut for view in views):
         notes.append(f"only the {'part around the interface' if two else 'upper part of the liquid'} shown")
     height = 1.2 + rows * row
-    titles = [fill(field.title, 42) for field in fields]
+    titles = [fill(field.title.replace(" = ", "\u00a0=\u00a0"), 42) for field in fields]
     size = min(13.7, 72.0 * panel / (0.58 * max(len(line) for title in titles for line in title.split("\n"))))
     # What reads pictures may refuse large ones.
     width = max(min(sheets.options.width, int(10_000 * PAGE / height)), 400)
     figure = new_page(width, height)
     write_caption(figure, "; ".join(notes))
-    for number, (field, view) in enumerate(zip(fields, views, strict=True)):
+    panels = []
+    for number, view in enumerate(views):
         left, top = 0.4 + number % columns * (panel + 0.4), height - 0.15 - number // columns * row
-        drawn = (view.top - view.bottom) / field.length * panel
-        axes = figure.add_axes(page_box(figure, left, top - 0.72 - drawn, panel, drawn))
-        _draw(axes, field, view, pages.of(view).scene, vectors=False, thin=0.62)
-        axes.set_axis_off()
+        drawn = (view.top - view.bottom) / view.field.length * panel
+        panels.append(figure.add_axes(page_box(figure, left, top - 0.72 - drawn, panel, drawn)))
+        panels[-1].set_axis_off()
         figure.text((left + 0.5 * panel) / PAGE, (top - 0.36) / height, titles[number], size=size,
                     ha="center", va="center")  # fmt: skip
     write_keys(figure, _keys(fields), 0.66)
-    sheets.save(figure, "overview")
+    return figure, panels
 
 
 class _Pages:
@@ -243,9 +258,6 @@ class _Page:
     """What is the same on the pictures of several modes, drawn once: axes, keys, colours."""
 
     def __init__(self, view: View, width: int) -> None:
-        from matplotlib.cm import ScalarMappable
-        from matplotlib.ticker import MaxNLocator
-
         self.view, field, up = view, view.field, view.top - view.bottom
         beside = _DENSITIES if field.densities else 0.0
         wide = min(PAGE - _BESIDE - beside, 0.75 * PAGE * field.length / up)
@@ -280,13 +292,16 @@ class _Page:
         write_keys(self.figure, [*_keys([field]), arrow_key(INK, "displacement ∇ψ")])
         self._bar = add_colour_bar(self.figure, ScalarMappable(cmap=mode_colours()))
         self._texts = [self.figure.text(0.0, 0.0, "")]
+        self._canvas, self._alike = FigureCanvasAgg(self.figure), None
 
-    def drawn(self, field: SectionField, title: str) -> Figure:
-        """The page of a mode, in place of the one before."""
+    def draw(self, field: SectionField, title: str) -> None:
+        """A mode, in place of the one before."""
         axes, view, figure = self.axes, self.view, self.figure
-        for artist in (*axes.collections, *axes.lines, *axes.images, *axes.patches, *self._texts):
+        for artist in self._changing():
             artist.remove()
-        _draw(axes, field, view, self.scene, vectors=True)
+        self.coloured = self.scene.coloured(field, view)
+        _draw(axes, field, view, self.coloured)
+        _draw_vectors(axes, self.scene.mesh, field, view)
         exponent = int(np.floor(np.log10(view.limit)))
         exponent = 0 if -3 <= exponent <= 3 else exponent
         self._bar.mappable.set_clim(*(side * view.limit / 10.0**exponent for side in (-1, 1)))
@@ -298,23 +313,50 @@ class _Page:
             write_caption(figure, "; ".join(view.notes())),
             write_meaning(figure, words),
         ]
-        return figure
+
+    def _changing(self) -> list[Artist]:
+        axes = self.axes
+        return [*axes.collections, *axes.lines, *axes.artists, *axes.patches, *self._texts]
+
+    def pixels(self) -> Image.Image:
+        """The page as `pixels` makes it; what all modes have alike is drawn once."""
+        changing = [*self._changing(), self._bar.ax]
+        if self._alike is None:
+            for artist in changing:
+                artist.set_visible(False)
+            self._canvas.draw()
+            self._alike = self._canvas.copy_from_bbox(self.figure.bbox)
+        self._canvas.restore_region(self._alike)
+        for artist in sorted(changing, key=Artist.get_zorder):
+            artist.set_visible(True)
+            artist.draw(self._canvas.renderer)
+        return without_opacity(self._canvas)
 
 
-def _draw(axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors: bool, thin: float = 1.0) -> None:
-    """A motion in axes of the scale of the abscissae; vectors as long as the largest of the view allow."""
-    from matplotlib.collections import PolyCollection
-    from matplotlib.colors import to_rgba
+class _Pixels(Artist):
+    """An image from the lower left corner of axes, which matplotlib would sample anew for each figure."""
 
-    image = scene.image(field, view.limit)
+    def __init__(self, image: Image.Image) -> None:
+        super().__init__()
+        self._image = np.asarray(image.convert("RGBA"))[::-1]
+
+    def draw(self, renderer: Any) -> None:
+        assert self.axes is not None
+        renderer.draw_image(renderer.new_gc(), self.axes.bbox.x0, self.axes.bbox.y0, self._image)
+
+
+def _draw(axes: Axes, field: SectionField, view: View, coloured: _Coloured, *, thin: float = 1.0) -> None:
+    """A motion in axes of the scale of the abscissae."""
+    image, lines = coloured
     axes.autoscale(False)
-    axes.imshow(image[:: 1 if vectors else 2, :: 1 if vectors else 2], extent=scene.extent, aspect="auto",
-                interpolation="nearest" if vectors else "bilinear")  # fmt: skip
     axes.set_xlim(field.start, field.start + field.length)
     axes.set_ylim(view.bottom, view.top)
-    _draw_lines(axes, scene.mesh, field, view, thin)
-    if vectors:
-        _draw_vectors(axes, scene.mesh, field, view)
+    width = round(axes.bbox.width)
+    if width != image.width:
+        image = image.resize((width, round(width * image.height / image.width)))
+    axes.add_artist(_Pixels(image))
+    axes.add_collection(PathCollection([lines], edgecolors=_LINES["lines of equal"][0], facecolors="none",
+                                       linewidths=0.8 * thin, capstyle="round", snap=False), autolim=False)  # fmt: skip
     # Liquid that passed a still level is tinted; where air came in, the field fades.
     shapes, colours = [], []
     for curve in field.surfaces:
@@ -342,9 +384,6 @@ def _draw(axes: Axes, field: SectionField, view: View, scene: Scene, *, vectors:
 
 
 def _line(name: str, x: Any, y: Any, thin: float = 1.0, label: str = "") -> Line2D:
-    from matplotlib.lines import Line2D
-    from matplotlib.patheffects import withStroke
-
     colour, width, edge, around, dashes = _LINES[name]
     effects = [withStroke(linewidth=edge * thin, foreground=around)] if edge else None
     return Line2D(x, y, color=colour, lw=width * thin, ls=dashes, path_effects=effects, solid_capstyle="butt",
@@ -391,33 +430,8 @@ def _draw_walls(axes: Axes, field: SectionField, view: View, thin: float) -> Non
         axes.add_line(_line(name, x, y, thin))
 
 
-def _draw_lines(axes: Axes, mesh: pyvista.PolyData, field: SectionField, view: View, thin: float) -> None:
-    """Lines of equal ψ; where it hardly changes, rounding errors would decide on the course of ψ = 0."""
-    import pyvista
-    from matplotlib.collections import PathCollection
-    from matplotlib.path import Path as Outline
-    from matplotlib.ticker import MaxNLocator
-
-    sizes = np.ptp(field.points[field.triangles], axis=1).max(axis=1)
-    steep = np.ptp(mesh["field"][field.triangles], axis=1) > 0.01 * sizes / field.length
-    if not steep.any():
-        return
-    # The level 0 is a hair above it: on a mirror plane ψ is 0 at whole edges of triangles.
-    values = np.asarray(MaxNLocator(24, steps=(1, 2, 5, 10)).tick_values(-view.limit, view.limit))
-    levels = values / view.limit + 1e-6
-    part = pyvista.PolyData.from_regular_faces(mesh.points, field.triangles[steep])
-    part["field"] = mesh["field"]
-    lines = part.contour(levels, scalars="field")
-    ends = lines.points[lines.lines.reshape(-1, 3)[:, 1:].ravel(), :2]
-    segments = Outline(ends, np.tile([Outline.MOVETO, Outline.LINETO], len(ends) // 2))
-    axes.add_collection(PathCollection([segments], edgecolors=_LINES["lines of equal"][0], facecolors="none",
-                                       linewidths=0.8 * thin, capstyle="round", snap=False), autolim=False)  # fmt: skip
-
-
 def _draw_vectors(axes: Axes, mesh: pyvista.PolyData, field: SectionField, view: View) -> None:
     """∇ψ on a grid: the 90 % quantile of the lengths gets nearly the spacing, longer ones are shortened to it."""
-    import pyvista
-
     spacing = _SPACING * field.length / (axes.get_position().width * PAGE)
     columns, rows = (max(round(side / spacing), 2) for side in (field.length, view.ceiling - view.bottom))
     x = field.start + field.length * (np.arange(columns) + 0.5) / columns
@@ -442,12 +456,9 @@ class Scene:
     """The colours of motions on the triangles of one field, in a view of it; one scene renders all modes."""
 
     def __init__(self, view: View, width: int) -> None:
-        import pyvista
-
         field, height = view.field, view.ceiling - view.bottom
         size = width, max(round(width * height / field.length), 2)
         points = np.column_stack([field.points[:, 0], view.drawn(field.points[:, 1]), np.zeros(len(field.points))])
-        self.extent = (field.start, field.start + field.length, view.bottom, view.ceiling)
         self.mesh = pyvista.PolyData.from_regular_faces(points, field.triangles)
         self._plotter = plotter(size)
         # Edges are smooth as they are.
@@ -460,8 +471,20 @@ class Scene:
         camera.position, camera.focal_point, camera.up = (*middle, 10.0 * field.length), (*middle, 0.0), (0.0, 1.0, 0.0)
         camera.parallel_scale, camera.clipping_range = 0.5 * height, (field.length, 20.0 * field.length)
 
-    def image(self, field: SectionField, limit: float) -> NDArray[np.uint8]:
-        """ψ or ρψ from −limit to limit as pixels."""
-        self.mesh["field"] = field.pressure / limit
+    def coloured(self, field: SectionField, view: View) -> _Coloured:
+        """ψ or ρψ as pixels, and lines where it is equal."""
+        self.mesh["field"] = field.pressure / view.limit
         self._plotter.render()
-        return np.asarray(self._plotter.screenshot(return_img=True, transparent_background=True))
+        image = Image.fromarray(np.asarray(self._plotter.screenshot(return_img=True)))
+        # Where it hardly changes, rounding errors would decide on the course of ψ = 0.
+        sizes = np.ptp(field.points[field.triangles], axis=1).max(axis=1)
+        steep = np.ptp(self.mesh["field"][field.triangles], axis=1) > 0.01 * sizes / field.length
+        if not steep.any():
+            return image, Outline(np.empty((0, 2)))
+        # The level 0 is a hair above it: on a mirror plane ψ is 0 at whole edges of triangles.
+        values = np.asarray(MaxNLocator(24, steps=(1, 2, 5, 10)).tick_values(-view.limit, view.limit))
+        part = pyvista.PolyData.from_regular_faces(self.mesh.points, field.triangles[steep])
+        part["field"] = self.mesh["field"]
+        lines = part.contour(values / view.limit + 1e-6, scalars="field")
+        ends = lines.points[lines.lines.reshape(-1, 3)[:, 1:].ravel(), :2]
+        return image, Outline(ends, np.tile([Outline.MOVETO, Outline.LINETO], len(ends) // 2))

@@ -14,6 +14,7 @@ import json
 import os
 import secrets
 import shutil
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -214,17 +215,22 @@ def _move_in(aside: Path, target: Path) -> None:
     earlier = written_by_run(target) or Written()
     found = _file_names(target)
     _keep([name for name in found if not earlier.has(target, name)], target, aside)
-    # Between both moves a killed process leaves the old folder under this name, and the next run takes it back.
+    # Between both moves a killed process leaves the old folder under this name, and the next run takes it back; other
+    # signals wait. The old folder then has the name of the new one, under which it is removed whatever happens.
     previous = aside.with_suffix(".previous")
-    os.replace(target, previous)
+    waiting = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))
     try:
-        os.replace(aside, target)
-    except BaseException:
-        os.replace(previous, target)
-        raise
+        os.replace(target, previous)
+        try:
+            os.replace(aside, target)
+        except BaseException:
+            os.replace(previous, target)
+            raise
+        os.replace(previous, aside)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, waiting)
     # Files created since the listing are in the old folder.
-    _keep(sorted(set(_file_names(previous)) - set(found)), previous, target)
-    shutil.rmtree(previous, ignore_errors=True)
+    _keep(sorted(set(_file_names(aside)) - set(found)), aside, target)
 
 
 def _keep(names: list[str], source: Path, target: Path) -> None:

@@ -6,7 +6,7 @@ matplotlib and pyvista are imported where something is drawn.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, fields
 from math import log10
@@ -21,12 +21,14 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.cm import ScalarMappable
     from matplotlib.colorbar import Colorbar
     from matplotlib.colors import Colormap, ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.text import Text
+    from PIL import Image
 
 CurveFormat: TypeAlias = Literal["png", "svg", "pdf"]
 PictureOption: TypeAlias = Literal["formats", "dpi", "scale", "width", "animate"]
@@ -144,12 +146,6 @@ _PAGE_STYLE: dict[str, Any] = {
     # matplotlib's own letters of formulas are slow.
     "axes.formatter.use_mathtext": False,
 }
-# Without the time of writing, files of the same picture are the same.
-_SAVED: dict[str, dict[str, Any]] = {
-    "png": {"pil_kwargs": {"compress_level": 1}},
-    "svg": {"metadata": {"Date": None}},
-    "pdf": {"metadata": {"CreationDate": None}},
-}
 
 
 def part_of_colours(name: str, first: float, last: float) -> ListedColormap:
@@ -209,13 +205,21 @@ class Sheets:
                 _label_decades(axes.yaxis)
             self.save(figure, name)
 
-    def save(self, figure: Figure, name: str) -> None:
-        """Write a figure as ``<name>.png`` and so on."""
+    def save(self, figure: Figure, name: str, image: Callable[[], Image.Image] | None = None) -> None:
+        """Write a figure as ``<name>.png`` and so on; its pixels may be known."""
         with catch_warnings():
             # Where long labels leave no room, matplotlib warns and draws them over each other.
             filterwarnings("ignore", message="constrained_layout not applied", category=UserWarning)
             for kind in self.options.formats:
-                figure.savefig(self.folder / f"{name}.{kind}", dpi=figure.dpi, **_SAVED[kind])
+                file = self.folder / f"{name}.{kind}"
+                if kind == "png":
+                    # Without opacities, which matplotlib would write; runs of equal bytes are found the soonest.
+                    drawn = image() if image else pixels(figure)
+                    drawn.save(file, compress_type=3, dpi=(figure.dpi, figure.dpi))
+                else:
+                    # Without the time of writing, files of the same picture are the same.
+                    dated = "Date" if kind == "svg" else "CreationDate"
+                    figure.savefig(file, dpi=figure.dpi, metadata={dated: None})
 
 
 def page_style() -> AbstractContextManager[None]:
@@ -225,12 +229,9 @@ def page_style() -> AbstractContextManager[None]:
 
 def new_page(width: int, height: float) -> Figure:
     """An empty page of a width in pixels and a height in inches of `PAGE`."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(PAGE, height), dpi=width / PAGE)
-    FigureCanvasAgg(figure)
-    return figure
+    return Figure(figsize=(PAGE, height), dpi=width / PAGE)
 
 
 def write_title(figure: Figure, words: str) -> Text:
@@ -287,19 +288,29 @@ def page_box(
     return left / across, bottom / up, width / across, height / up
 
 
-def pixels(figure: Figure) -> np.ndarray:
-    """A figure as red, green and blue in 0…255, the uppermost row first."""
-    figure.canvas.draw()
-    return np.array(figure.canvas.buffer_rgba())[:, :, :3]  # type: ignore[attr-defined]
+def pixels(figure: Figure) -> Image.Image:
+    """A figure as it is seen."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return without_opacity(canvas)
+
+
+def without_opacity(canvas: FigureCanvasAgg) -> Image.Image:
+    """What was drawn on a canvas."""
+    from PIL import Image
+
+    return Image.frombuffer("RGBA", canvas.get_width_height(), canvas.buffer_rgba()).convert("RGB")
 
 
 def write_gif(
-    pages: Iterable[np.ndarray], path: Path, *, seconds: float = SECONDS, kept: Colormap | None = None
+    pages: Iterable[Image.Image], path: Path, *, seconds: float = SECONDS, kept: Colormap | None = None
 ) -> None:
     """Write pages one after the other, with the same colours for all, as a GIF that repeats itself; a scale is kept."""
     from PIL import Image
 
-    images = [Image.fromarray(page) for page in pages]
+    images = list(pages)
     scale = b"" if kept is None else kept(np.arange(0, 256, 2), bytes=True)[:, :3].tobytes()
     # Chosen from four quarters to cover all colours: the most frequent ones alone would turn thin lines grey.
     judged = np.vstack([np.asarray(images[number]) for number in range(0, len(images), max(len(images) // 4, 1))])

@@ -304,10 +304,9 @@ def test_the_pressure_along_a_hull_gives_the_forces(depth: float, waves_from: Li
     points = np.column_stack([x, y])[len(x) // 2 :]
     pressures = in_dataset(found.result, "partial_pressure_on_body_1").reshape(-1, len(points))
     below = np.linspace(0.0, 0.5 * math.pi, 2001)
-    # From the axis to the water, and spline beyond the last points.
-    heaving, surging = (
-        CubicSpline(np.arctan2(-points[::-1, 1], points[::-1, 0]), p[::-1])(below) for p in pressures[:2]
-    )
+    # From the water to the axis.
+    angles = np.arctan2(-points[::-1, 1], points[::-1, 0])
+    heaving, surging = (CubicSpline(angles, p[::-1])(below) for p in pressures[:2])
     heave = 2.0 * math.pi * np.trapezoid(heaving * np.sin(below) * np.cos(below), below)
     surge = -math.pi * np.trapezoid(surging * np.cos(below) ** 2, below)
     mass, stiffness = DENSITY * 2.0 / 3.0 * math.pi, DENSITY * GRAVITY * math.pi

@@ -15,6 +15,7 @@ from volume_tanks import rectangle_in_a_box
 
 from hydroelastic.fem.liquid import liquid_space
 from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.plan.classes import mirrored_classes
 from hydroelastic.fem.shape_loads import surface_load
 from hydroelastic.fem.volume.distribution import distributed_volume
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
@@ -66,7 +67,7 @@ def test_multigrid_gives_the_modes_of_the_factorization(name: str) -> None:
     tank = TANKS[name].scaled()
     mirrors = volume_mirrors(tank)
     model = model_of(tank, MPI.COMM_SELF, mirrors, degree=4 if name == "plate" else 2)
-    for parity in model.parities:
+    for parity in mirrored_classes(mirrors):
         values = []
         for largest in (10**6, 0):
             pencil = model.pencil(parity, partial(direct_or_multigrid, tolerance=1e-8, largest=largest))
@@ -99,7 +100,9 @@ def test_iterations_of_multigrid_hardly_grow_with_the_unknowns() -> None:
     counts, tank = [], TANKS["plate"].scaled()
     for bulk in (0.3, 0.12):
         model = model_of(tank, MPI.COMM_SELF, volume_mirrors(tank), bulk=bulk)
-        pencil = model.pencil(model.parities[0], partial(direct_or_multigrid, tolerance=1e-9, largest=0))
+        pencil = model.pencil(
+            mirrored_classes(model.mirrors)[0], partial(direct_or_multigrid, tolerance=1e-9, largest=0)
+        )
         assert pencil is not None
         solve_modes(pencil, 3, shapes=0, tolerance=1e-9)
         assert isinstance(pencil.solver, MultigridSolver)

@@ -259,7 +259,7 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
     ("arguments", "needed"),
     [
         # A check meshes the scene to say how large it is.
-        (["check", "aquarium"], {"gmsh"}),
+        (["check", "aquarium"], {"gmsh", "basix"}),
         (["list"], set()),
         (["--help"], set()),
         (["run", "--help"], set()),

@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydroelastic.fem.closed.discretization import Discretization
 from hydroelastic.meshes.geometry import (
     AXIS,
     BOTTOM,
@@ -33,6 +34,7 @@ from hydroelastic.meshes.geometry import (
     UPPER_LIQUID,
 )
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
+from hydroelastic.meshes.section import SectionSizes, SectionTriangles, section_triangles
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.contours import Arc, bowl_arc, root
 from hydroelastic.physics.dofs import body_name, body_number
@@ -42,6 +44,8 @@ from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 Directed = tuple[int, bool]
 """Number of a curve, and whether it is passed from its start to its end."""
 
+# α of singular points that need no smaller cells.
+_WEAK = 1.9
 # Largest element along the sphere of a bowl, in radii of its surface.
 _OF_BOWL = 0.5
 
@@ -63,6 +67,19 @@ def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool) -> Outline
     builder = _Builder(tank, sizes, half)
     regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
     return Outline(curves=tuple(builder.curves), regions=tuple(regions))
+
+
+def tank_triangles(
+    tank: Tank, outline: Outline, points: tuple[SingularPoint, ...], own: Discretization
+) -> SectionTriangles:
+    """The triangles of an outline with small ones at its singular points."""
+    ends = np.array(sorted({end for curve in outline.curves for end in (curve.start, curve.end)}))
+    near = {}
+    for point in points:
+        distances = np.hypot(*(ends - point.point).T)
+        size = own.near * min(tank.depth, float(distances[distances > 0.0].min()))
+        near[point.point] = size if point.exponent < _WEAK else inf, point.largest_angle
+    return section_triangles(outline, SectionSizes(bulk=own.bulk, points=near))
 
 
 class _Builder:

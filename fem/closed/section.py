@@ -40,7 +40,14 @@ from hydroelastic.fem.closed.discretization import (
     sought_modes,
     workable_tolerance,
 )
-from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
+from hydroelastic.fem.closed.outline import (
+    SingularPoint,
+    layer_names,
+    released_surfaces,
+    singular_points,
+    tank_outline,
+    tank_triangles,
+)
 from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, first_elastic, float_modes
 from hydroelastic.fem.core.adaptive import largest, solve_adaptive
 from hydroelastic.fem.core.bodies import Body, extension, moving_bodies
@@ -51,17 +58,16 @@ from hydroelastic.fem.core.parts import MergedModes, merged_modes
 from hydroelastic.fem.core.pencil import Loads, Pencil, Surface
 from hydroelastic.fem.core.sampling import along_level
 from hydroelastic.meshes.compat import coordinate_degree
-from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
+from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline
-from hydroelastic.meshes.section import SectionSizes, SectionTriangles, given_triangles, section_triangles
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.section import SectionTriangles, given_triangles
+from hydroelastic.meshes.tagged_mesh import MeshError, NodedMesh, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image, shapes_of_twins
 from hydroelastic.physics.tank import MIDDLE, StillLevel, Tank
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Pencils = Mapping[Parity | None, Pencil]
 """By symmetry; ``None`` is the whole tank."""
 
@@ -73,8 +79,6 @@ _MODES_OF_A_BEAM = 6
 _ROUNDING_OF_SPREAD = 1e-15
 # Added mass below this part of ρ times the square (roll: fourth power) of the float's extent is rounding.
 _NO_LIQUID = 1e-9
-# α of singular points that need no smaller cells.
-_WEAK = 1.9
 # Degree at which cells of two degrees of the geometry are compared.
 _DEGREE_OF_GEOMETRY = 5
 
@@ -129,14 +133,7 @@ class DiscreteSection:
 
     @cached_property
     def _triangles(self) -> SectionTriangles:
-        own, depth = self.discretization, self.tank.depth
-        ends = np.array(sorted({end for curve in self.outline.curves for end in (curve.start, curve.end)}))
-        near = {}
-        for point in self.points:
-            distances = np.hypot(*(ends - point.point).T)
-            size = own.near * min(depth, float(distances[distances > 0.0].min()))
-            near[point.point] = size if point.exponent < _WEAK else inf, point.largest_angle
-        return section_triangles(self.outline, SectionSizes(bulk=own.bulk, points=near))
+        return tank_triangles(self.tank, self.outline, self.points, self.discretization)
 
     def _noded(self) -> NodedMesh:
         own = self.discretization
@@ -152,12 +149,6 @@ class DiscreteSection:
             densities = [measure * layer.density for layer in tank.layers]
             self._liquids[degree] = Liquid(self.mesh, degree, densities, layer_names(tank), tank.geometry)
         return self._liquids[degree]
-
-    def cells_of_layers(self) -> list[Indices]:
-        """Cells of each layer, as numbers of their corners."""
-        mesh = self._triangles
-        of_cells = np.array(mesh.names)[mesh.regions]
-        return [mesh.cells[of_cells == name] for name in dict.fromkeys(mesh.names)]
 
     def pencils(self, degree: int) -> Pencils:
         """The problems of all parts with ψ of a degree (collective)."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import basix
 import numpy as np
@@ -15,7 +16,6 @@ import xarray as xr
 from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
-from scipy.interpolate import BarycentricInterpolator
 
 from hydroelastic.fem.cells import cell_corners, cell_jacobians, cell_positions, owned_cells
 from hydroelastic.fem.core.liquid import Liquid
@@ -51,15 +51,22 @@ def along_level(liquid: Liquid, functions: Sequence[fem.Function], name: str, la
         known[own, number] = function.x.array[trace.facets[own] - liquid.first]
     liquid.comm.Allreduce(MPI.IN_PLACE, known)
     abscissas = trace.points[..., 0]
-    found = np.full((len(functions), len(x)), np.nan)
-    nodes = _nodes(abscissas.shape[1] - 1)
     middles = abscissas.mean(axis=1)
+    facet_of = np.full(len(x), -1)
     for facet in np.argsort((middles > x.min()) & (middles < x.max()), kind="stable"):
-        places = abscissas[facet]
-        here = np.flatnonzero((x >= places[0] - _ROUNDING) & (x <= places[-1] + _ROUNDING))
-        if len(here):
-            t = _parameters(BarycentricInterpolator(nodes, places), x[here])
-            found[:, here] = BarycentricInterpolator(nodes, known[facet])(t).T
+        left, right = abscissas[facet, [0, -1]]
+        facet_of[(x >= left - _ROUNDING) & (x <= right + _ROUNDING)] = facet
+    there = np.flatnonzero(facet_of >= 0)
+    places = abscissas[facet_of[there]]
+    low: Array = np.zeros(len(there))
+    high: Array = np.ones(len(there))
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = np.einsum("pn,pn->p", _basis(places.shape[1] - 1, middle), places) < x[there]
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    found = np.full((len(functions), len(x)), np.nan)
+    basis = _basis(places.shape[1] - 1, 0.5 * (low + high))
+    found[:, there] = np.einsum("pn,pnm->mp", basis, known[facet_of[there]])
     return found
 
 
@@ -136,19 +143,15 @@ def _tessellated(
     )
 
 
-def _parameters(abscissa: BarycentricInterpolator, x: Array) -> Array:
-    low: Array = np.zeros(len(x))
-    high: Array = np.ones(len(x))
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        below = abscissa(middle) < x
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return np.asarray(0.5 * (low + high))
-
-
 @cache
-def _nodes(degree: int) -> Array:
+def _interval(degree: int) -> tuple[Any, Indices]:
+    """Lagrange's element of an interval, and its points from left to right."""
     element = basix.create_element(
         basix.ElementFamily.P, basix.CellType.interval, degree, basix.LagrangeVariant.gll_warped
     )
-    return np.sort(element.points[:, 0])
+    return element, np.argsort(element.points[:, 0])
+
+
+def _basis(degree: int, t: Array) -> Array:
+    element, order = _interval(degree)
+    return np.asarray(element.tabulate(0, t[:, None])[0, :, order, 0].T)

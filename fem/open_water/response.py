@@ -42,6 +42,7 @@ from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import boundary_error, joined_errors
+from hydroelastic.fem.tank.outline import arcs_beside
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.physics.contours import points_along
 
@@ -285,6 +286,8 @@ def hull_pressure(
     weight, origin = units.density * units.gravity, np.array([model.basin.origin, 0.0])
     hull = model.basin.tank.hulls[index]
     arcs = (*hull.below, *hull.above)
+    if model.basin.tank.geometry.is_revolved:
+        arcs = arcs_beside(arcs, 0.0, 1.0)
     scaled = np.vstack([points_along(arcs), [arcs[-1].end]])
     points, places = units.length * scaled + origin, _nearest(model, index, scaled)
     values = np.zeros((len(responses), len(responses[0].incident), len(points)), dtype=complex)

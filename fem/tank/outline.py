@@ -171,9 +171,9 @@ class _Builder:
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
         arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
-            arcs = _beside(arcs, self.right, -1.0)
+            arcs = arcs_beside(arcs, self.right, -1.0)
         if on_axis:
-            arcs = _beside(arcs, 0.0, 1.0)
+            arcs = arcs_beside(arcs, 0.0, 1.0)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
         path = [
             (self._curve(name, smooth.start, smooth.end, arc=None if smooth.straight else smooth, size=size), True)
@@ -269,9 +269,8 @@ def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
         yield arc.part(first, last, start=start, end=end)
 
 
-def _beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
-    """The part of a contour left (−1) or right (1) of the mirror plane; the contour is its own image and meets it
-    once."""
+def arcs_beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
+    """Return the part left (−1) or right (1) of a mirror plane of a contour: its own image, it meets the plane once."""
     kept = []
     for arc in (_onto(arc, x) for arc in arcs):
         start, end = (side * (point[0] - x) for point in (arc.start, arc.end))

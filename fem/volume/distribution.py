@@ -11,10 +11,10 @@ from mpi4py import MPI
 
 from hydroelastic.fem.cells import owned_cells
 from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
-from hydroelastic.meshes.distribute import NodedMesh, TankMesh, distribute_nodes
+from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
 from hydroelastic.meshes.plan_loops import Mirrors, image_count
 from hydroelastic.meshes.refinement import refined_mesh
-from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, TooManyCellsError
+from hydroelastic.meshes.tagged_mesh import MeshError, MisplacedError, NodedMesh, TooManyCellsError
 from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_integral, mesh_volume, smallest_jacobians
 from hydroelastic.meshes.volume import MOST_CELLS, VolumeSizes, depth_over, volume_mesh
 from hydroelastic.physics.volume_tank import SurveyedBed, VolumeTank

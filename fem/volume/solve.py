@@ -45,9 +45,8 @@ from hydroelastic.fem.volume.resolution import (
     volume_resolution,
     with_refinements,
 )
-from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.plan_loops import image_count
-from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tagged_mesh import MeshError, NodedMesh
 from hydroelastic.meshes.tetrahedra import unknown_count
 from hydroelastic.physics.volume_tank import VolumeTank
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,12 +29,10 @@ from hydroelastic.scenes.open_water.results import OpenSolution
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_MOST_DEFLECTIONS = 6
-_MOST_DIRECTIONS = 5
+_MOST_DEFLECTIONS, _MOST_DIRECTIONS = 6, 5
 # Angles of a polar plot.
 _AROUND = 361
-_MOST_CURVES = 8
-_MOST_MOTIONS = 12
+_MOST_CURVES, _MOST_CURVES_IN_TIME, _MOST_MOTIONS = 8, 6, 12
 # Of forces each wave has a curve: a legend of more would leave them no room.
 _MOST_FORCES = 6
 # Times whose steps differ so much are spread logarithmically.
@@ -42,8 +40,6 @@ _SPREAD = 5.0
 # A peak over less than this part of the frequencies leaves the axes where it is so many times as high as all else.
 _NARROW, _HIGH = 0.02, 2.5
 _FREQUENCY = "angular frequency ω, rad/s"
-
-_MOST_CURVES_IN_TIME = 6
 
 
 def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> None:
@@ -56,13 +52,14 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
         _draw_directions(response, sheets, f"scattering_{number}")
         for place, plate in enumerate(response.plates):
             _draw_deflection(response, place, sheets, f"deflection_{number}_body_{plate.body + 1}")
-    for number, resonance in enumerate(solution.resonance, 1):
-        _draw_resonances(resonance, sheets, f"resonance_{number}")
-    for number, decay in enumerate(solution.decay, 1):
-        _draw_decay(decay, sheets, f"decay_{number}")
-    for number, spectrum in enumerate(solution.spectrum, 1):
-        _draw_spectrum(spectrum, sheets, f"spectrum_{number}")
-    draw_over_time(solution, sheets)
+    others: tuple[tuple[str, Any, Callable[[Any, Sheets, str], None]], ...] = (
+        ("resonance", solution.resonance, _draw_resonances), ("decay", solution.decay, _draw_decay),
+        ("spectrum", solution.spectrum, _draw_spectrum), ("motion", solution.motion, _draw_motion),
+        ("impulse_response", solution.impulse_response, _draw_impulse_response),
+    )  # fmt: skip
+    for kind, tables, draw in others:
+        for number, table in enumerate(tables, 1):
+            draw(table, sheets, f"{kind}_{number}")
 
 
 def _draw_spectrum(table: SpectrumTable, sheets: Sheets, name: str) -> None:
@@ -89,22 +86,18 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: 
     if not len(order):
         return
     omega = table.omega[order]
-    rows = by_unit(table.dofs)
+    rows = _by_unit(table.dofs)
     heading = "added mass, radiation damping, force per metre of waves from the left"
     with sheets.sheet(name, heading, width=15.0, height=0.9 + 4.9 * len(rows)) as figure:
         panels = figure.subplots(len(rows), 3, squeeze=False)
         for (left, right, last), (turns, places) in zip(panels, rows, strict=True):
             far = table.infinite_frequency_added_mass
             for number in places[:_MOST_MOTIONS]:
-                mass, damping = (
-                    matrix[order, number, number] for matrix in (table.added_mass, table.radiation_damping)
-                )
-                plot_curve(left, omega, np.where(np.isfinite(mass), mass, np.nan), number, table.dofs[number].words)
-                plot_curve(right, omega, damping, number, table.dofs[number].words)
+                mass, words = table.added_mass[order, number, number], table.dofs[number].words
+                plot_curve(left, omega, np.where(np.isfinite(mass), mass, np.nan), number, words)
+                plot_curve(right, omega, table.radiation_damping[order, number, number], number, words)
                 if far is not None:
-                    left.axhline(
-                        far[number, number], color=COLOURS[number % len(COLOURS)], linewidth=0.9, linestyle=":"
-                    )
+                    left.axhline(far[number, number], color=COLOURS[number % len(COLOURS)], linewidth=0.9, ls=":")
             _plot_forces(last, table, order, places)
             if far is not None:
                 left.plot([], [], ":", color=GREY, linewidth=0.9, label="limit for ω → ∞")
@@ -134,7 +127,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
     order = np.argsort(table.omega)
     largest = np.argsort(-np.abs(table.amplitudes).max(axis=(0, 1)), kind="stable")
     largest = largest[: max(_MOST_CURVES // len(table.waves), 1)]
-    groups = [(turns, [place for place in places if place in largest]) for turns, places in by_unit(table.dofs)]
+    groups = [(turns, [place for place in places if place in largest]) for turns, places in _by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"response per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
@@ -145,11 +138,8 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
             _plot_widths(first, table, order)
         number = 0
         for axes, (turns, places) in zip(others, groups, strict=True):
-            sizes = {
-                table.dofs[motion].words + which: np.abs(table.amplitudes[order, incident, motion])
-                for motion in places
-                for incident, which in enumerate(_incident(table))
-            }
+            sizes = {table.dofs[motion].words + which: np.abs(table.amplitudes[order, incident, motion])
+                     for motion in places for incident, which in enumerate(_incident(table))}  # fmt: skip
             _plot_sizes(axes, table.omega[order], sizes, number)
             number += len(sizes)
             label_axes(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
@@ -250,15 +240,9 @@ def _draw_resonances(table: ResonanceTable, sheets: Sheets, name: str) -> None:
             left = omega.real > 0.5 * (table.omega.real.min() + table.omega.real.max())
             # Above points at the lower edge, below others, for the same reason.
             above = omega.imag < 0.5 * table.omega.imag.min()
-            axes.annotate(
-                "\n".join(_resonance_words(omega, label)),
-                (omega.real, omega.imag),
-                xytext=(-8 if left else 8, 4 if above else -4),
-                textcoords="offset points",
-                va="bottom" if above else "top",
-                ha="right" if left else "left",
-                fontsize=9,
-            )
+            axes.annotate("\n".join(_resonance_words(omega, label)), (omega.real, omega.imag),
+                          (-8 if left else 8, 4 if above else -4), textcoords="offset points", fontsize=9,
+                          va="bottom" if above else "top", ha="right" if left else "left")  # fmt: skip
         axes.margins(0.2)
         label_axes(axes, "Re ω, rad/s", "Im ω, 1/s: decay below 0", legend="")
 
@@ -282,7 +266,7 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
     released = int(np.argmax(np.abs(table.initial)))
     order = np.argsort(table.times)
     times, displacement = table.times[order], table.displacement[order]
-    groups = [(turns, _moving(displacement, places, table)) for turns, places in by_unit(table.dofs)]
+    groups = [(turns, _moving(displacement, places, table)) for turns, places in _by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"free motion after release in {table.dofs[released].words}"
     with sheets.sheet(name, heading, width=6.0 * (1 + len(groups))) as figure:
@@ -326,15 +310,7 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
     label_axes(axes, "time t, s", f"size of the displacement, {unit}")
 
 
-def draw_over_time(solution: Any, sheets: Sheets) -> None:
-    """Draw a figure for each impulse response and motion analysis: ``impulse_response_1``, ``motion_1`` and so on."""
-    for number, response in enumerate(solution.impulse_response, 1):
-        _draw_impulse_response(response, sheets, f"impulse_response_{number}")
-    for number, motion in enumerate(solution.motion, 1):
-        _draw_motion(motion, sheets, f"motion_{number}")
-
-
-def by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
+def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
     """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
     turns = [motion.is_rotation for motion in dofs]
     return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
@@ -343,7 +319,7 @@ def by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
 def _draw_impulse_response(table: ImpulseResponseTable, sheets: Sheets, name: str) -> None:
     """The diagonal of K, and the error of what it gives back over the frequency."""
     order = np.argsort(table.times)
-    groups = by_unit(table.dofs)
+    groups = _by_unit(table.dofs)
     with sheets.sheet(name, "impulse responses of radiation", width=6.0 * (1 + len(groups))) as figure:
         *panels, last = figure.subplots(1, 1 + len(groups))
         for axes, (turns, places) in zip(panels, groups, strict=True):
@@ -351,19 +327,16 @@ def _draw_impulse_response(table: ImpulseResponseTable, sheets: Sheets, name: st
                 values = table.impulse_response[order, motion, motion]
                 plot_curve(axes, table.times[order], values, motion, table.dofs[motion].words)
             label_axes(axes, "time t, s", "impulse response K, N" if turns else "impulse response K, N/m²")
-        for number, (errors, label) in enumerate(
-            ((table.causality_error, "a and b by K"), (table.ogilvie_error, "a∞ by Ogilvie's relation"))
-        ):
-            plot_curve(last, table.omega, errors, number, label)
+        plot_curve(last, table.omega, table.causality_error, 0, "a and b by K")
+        plot_curve(last, table.omega, table.ogilvie_error, 1, "a∞ by Ogilvie's relation")
         last.axhline(table.relative_error, color=GREY, linewidth=0.9, linestyle=":", label="estimated error")
-        last.set_xscale("log")
-        last.set_yscale("log")
+        last.set(xscale="log", yscale="log")
         label_axes(last, "angular frequency ω, rad/s", "difference over the largest a + ib/ω")
 
 
 def _draw_motion(table: MotionTable, sheets: Sheets, name: str) -> None:
     """The waves, and below them the motions over time, with those without a beginning."""
-    groups = by_unit(table.dofs)
+    groups = _by_unit(table.dofs)
     heading = f"motion {table.beginning}"
     with sheets.sheet(name, heading, width=10.0, height=1.2 + 2.8 * (1 + len(groups))) as figure:
         first, *panels = figure.subplots(1 + len(groups), 1, sharex=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from hydroelastic.output.plots import (
     Sheets,
     label_axes,
     part_of_colours,
+    pixels,
     sequence_colours,
     style,
     write_gif,
@@ -30,7 +31,7 @@ from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series
 
 if TYPE_CHECKING:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
@@ -38,12 +39,6 @@ _SHOWN_MODES = 5
 _QUANTILE = 0.995
 # Times this quantile a value is a peak.
 _PEAK = 1.5
-_EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
-    (False, False): "neither",
-    (True, False): "min",
-    (False, True): "max",
-    (True, True): "both",
-}
 _FEW_POSITIONS = 20
 # Part of the largest |U| of a shape by which neighbouring positions beside a front differ where the string jumps there.
 _JUMP = 0.1
@@ -88,30 +83,20 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
     displacement = _bridged(solution.times, solution.displacement, solution.trusted)
     low, high = _colour_limits(displacement)
     limit = max(-low, high)
-    beyond = (bool(displacement.min() < low), bool(displacement.max() > high))
+    beyond = 2 * int(displacement.max() > high) + int(displacement.min() < low)
     with sheets.sheet("space_time", "displacement over time and height", width=10.0, height=6.0) as figure:
         axes = figure.subplots()
-        picture = NonUniformImage(
-            axes,
-            interpolation="bilinear",
-            cmap=part_of_colours("RdBu_r", 0.5 + 0.5 * low / limit, 0.5 + 0.5 * high / limit),
-            norm=Normalize(low, high),
-            extent=(solution.times[0], solution.times[-1], solution.positions[0], solution.positions[-1]),
-        )
+        colours = part_of_colours("RdBu_r", 0.5 + 0.5 * low / limit, 0.5 + 0.5 * high / limit)
+        sides = (solution.times[0], solution.times[-1]), (solution.positions[0], solution.positions[-1])
+        norm = Normalize(low, high)
+        picture = NonUniformImage(axes, interpolation="bilinear", cmap=colours, norm=norm, extent=sides[0] + sides[1])
         picture.set_data(solution.times, solution.positions, displacement)
         axes.add_image(picture)
-        figure.colorbar(picture, ax=axes, label="displacement U, m", extend=_EXTENDED[beyond])
-        axes.plot(
-            solution.string.arrival_times(solution.positions),
-            solution.positions,
-            "--",
-            color="black",
-            linewidth=1.0,
-            label="first wave front",
-        )
+        figure.colorbar(picture, ax=axes, label="displacement U, m", extend=("neither", "min", "max", "both")[beyond])
+        front = solution.string.arrival_times(solution.positions)
+        axes.plot(front, solution.positions, "--", color="black", linewidth=1.0, label="first wave front")
         axes.grid(visible=False)
-        axes.set_xlim(solution.times[0], solution.times[-1])
-        axes.set_ylim(solution.positions[0], solution.positions[-1])
+        axes.set(xlim=sides[0], ylim=sides[1])
         label_axes(axes, "time t, s", HEIGHT)
 
 
@@ -178,8 +163,8 @@ def _drawn(solution: StringSolution) -> dict[str, Any]:
 
 def draw_frames(solution: StringSolution, numbers: Sequence[int], folder: Path, options: PictureOptions) -> None:
     """Draw the string at some of its times, numbered as players of sequences expect."""
-    for place, canvas in enumerate(_frames(solution, numbers, options.scale)):
-        canvas.figure.savefig(folder / f"frame_{place:04d}.png", dpi=options.dpi)
+    for number, figure in enumerate(_frames(solution, numbers, options.scale, options.dpi)):
+        pixels(figure).save(folder / f"frame_{number:04d}.png")
 
 
 def animate_string(solution: StringSolution, path: Path, options: PictureOptions) -> None:
@@ -187,22 +172,15 @@ def animate_string(solution: StringSolution, path: Path, options: PictureOptions
     numbers = columns_of(solution, np.linspace(solution.times[0], solution.times[-1], _MOTION_FRAMES))
     if len(numbers) < 2:
         return
-    pages = []
-    for canvas in _frames(solution, numbers, options.scale, _ANIMATION_DPI):
-        canvas.draw()
-        pages.append(np.array(canvas.buffer_rgba())[:, :, :3])
+    pages = [pixels(figure) for figure in _frames(solution, numbers, options.scale, _ANIMATION_DPI)]
     write_gif(pages, path, seconds=SECONDS / FRAMES * len(pages))
 
 
-def _frames(
-    solution: StringSolution, numbers: Sequence[int], scale: float, dpi: float = 100.0
-) -> Iterator[FigureCanvasAgg]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+def _frames(solution: StringSolution, numbers: Sequence[int], scale: float, dpi: int) -> Iterator[Figure]:
     from matplotlib.figure import Figure
 
     with style():
         figure = Figure(figsize=(5.0 * scale, 6.0 * scale), dpi=dpi, layout="constrained")
-        canvas = FigureCanvasAgg(figure)
         axes = figure.subplots()
         reach = 1.05 * max(solution.largest, 1e-300)
         axes.set_xlim(-reach, reach)
@@ -218,7 +196,7 @@ def _frames(
             line.set_data(solution.displacement[:, column], solution.positions)
             end.set_data([solution.displacement[-1, column]], [solution.positions[-1]])
             title.set_text(f"t = {solution.times[column]:.4g} s")
-            yield canvas
+            yield figure
 
 
 def drawn_solution(result: StringResult) -> StringSolution:

@@ -49,15 +49,11 @@ def _draw_floor(panels: tuple[Axes, ...], study: Study) -> None:
     for axes in panels:
         axes.axhspan(bottom, floor, color="#f0f0f0", zorder=0)
         axes.set_ylim(bottom=bottom)
-        axes.annotate(
-            "rounding, or the reference's own error",
-            (0.01, 0.01),
-            xycoords="axes fraction",
-            ha="left",
-            va="bottom",
-            color=GREY,
-            fontsize=9,
-        )
+        _remark(axes, "rounding, or the reference's own error", 0.01, 0.01, ha="left", va="bottom")
+
+
+def _remark(axes: Axes, words: str, x: float, y: float, **alignment: Any) -> None:
+    axes.text(x, y, words, transform=axes.transAxes, color=GREY, fontsize=9, **alignment)
 
 
 def _series_of(row: StudyRow) -> tuple[Family, int]:
@@ -68,18 +64,14 @@ def _series_of(row: StudyRow) -> tuple[Family, int]:
 def _style(family: Family, degree: int, rows: list[StudyRow]) -> dict[str, Any]:
     if family == "geometric":
         label = f"geometric, degree {rows[0].degree} to {rows[-1].degree}"
-        return {"color": BLUE, "marker": "o", "markersize": 5, "linewidth": 2.0, "label": label}
+        return {"color": BLUE, "marker": "o", "linewidth": 2.0, "label": label}
     if family == "tolerance":
         label = f"tolerance asked, {_power(rows[0])} to {_power(rows[-1])}"
         return {"color": GREEN, "marker": "*", "markersize": 9, "linewidth": 2.0, "label": label}
     uniform = family == "uniform"
     return {
-        "color": (_DEGREES | _RAMP)[degree],
-        "marker": _MARKERS[degree],
-        "markersize": 5,
-        "linewidth": 1.3,
-        "linestyle": "--" if uniform else "-",
-        "markerfacecolor": "white" if uniform else None,
+        **{"color": (_DEGREES | _RAMP)[degree], "marker": _MARKERS[degree], "linewidth": 1.3},
+        **({"linestyle": "--", "markerfacecolor": "white"} if uniform else {}),
         "label": f"uniform, degree {degree}" if uniform else f"algebraic, degree {degree}, β = {rows[0].grading:.3g}",
     }
 
@@ -98,26 +90,12 @@ def _draw_orders(axes: Axes, study: Study) -> None:
     start, top = left + 0.68 * (right - left), high - 0.07 * (high - low)
     # In two dimensions unknowns grow like the square of 1/h.
     length = min(0.22 * (right - left), 0.3 * (high - low) / (0.5 * orders[-1]))
-    axes.annotate(
-        "orders of theory in the element size h",
-        (0.99, 0.99),
-        xycoords="axes fraction",
-        ha="right",
-        va="top",
-        color=GREY,
-        fontsize=9,
-    )
+    _remark(axes, "orders of theory in the element size h", 0.99, 0.99, ha="right", va="top")
     for order in orders:
         end, bottom = start + length, top - 0.5 * order * length
         axes.plot([10**start, 10**end], [10**top, 10**bottom], color=GREY, linewidth=0.9)
-        axes.annotate(
-            f"$h^{{{order:g}}}$",
-            (10**end, 10**bottom),
-            xytext=(4, 0),
-            textcoords="offset points",
-            va="center",
-            color=GREY,
-        )
+        axes.annotate(f"$h^{{{order:g}}}$", (10**end, 10**bottom), (4, 0), textcoords="offset points", va="center",
+                      color=GREY)  # fmt: skip
     axes.set_xlim(10**left, 10**right)
     axes.set_ylim(10**low, 10**high)
 
@@ -129,11 +107,5 @@ def _draw_gain(axes: Axes, study: Study) -> None:
     if left is None:
         return
     errors = _APART * rows[-1].error * left / left[-1]
-    axes.loglog(
-        [row.unknowns for row in rows],
-        errors,
-        ":",
-        color=BLUE,
-        linewidth=1.2,
-        label="slope of theory, geometric rings",
-    )
+    style: dict[str, Any] = {"color": BLUE, "linewidth": 1.2, "label": "slope of theory, geometric rings"}
+    axes.loglog([row.unknowns for row in rows], errors, ":", **style)

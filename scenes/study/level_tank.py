@@ -168,10 +168,7 @@ def _draw(study: LevelStudy, sheets: Sheets) -> None:
         for model, group in groupby(study.rows, key=lambda row: row.model):
             rows = list(group)
             colour, marker = _STYLES[model]
-            for axes, values in (
-                (left, [row.seconds for row in rows]),
-                (right, [row.unknowns for row in rows]),
-            ):
+            for axes, values in (left, [row.seconds for row in rows]), (right, [row.unknowns for row in rows]):
                 axes.loglog(values, [row.error for row in rows], color=colour, marker=marker, label=model)
                 axes.loglog(values, [row.estimate for row in rows], color=colour, linestyle=":", linewidth=1.0)
         left.set_xlabel("time, s")

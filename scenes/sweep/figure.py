@@ -72,13 +72,8 @@ def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
     drawn, share = np.concatenate(segments), np.concatenate(shares)
     order = np.argsort(share)
     colours = part_of_colours(SEQUENCE, 0.85, 0.0)
-    lines = LineCollection(
-        list(drawn[order]),
-        cmap=colours,
-        array=share[order],
-        linewidths=_WIDTHS[0] + (_WIDTHS[1] - _WIDTHS[0]) * np.clip(share[order], 0.0, 1.0),
-        capstyle="round",
-    )
+    widths = _WIDTHS[0] + (_WIDTHS[1] - _WIDTHS[0]) * np.clip(share[order], 0.0, 1.0)
+    lines = LineCollection(list(drawn[order]), cmap=colours, array=share[order], linewidths=widths, capstyle="round")
     lines.set_clim(0.0, 1.0)
     panel.add_collection(lines)
     if beams:
@@ -113,9 +108,8 @@ def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
         return
     (axis,) = sweep.solved.grid.axes
     for number, (name, values) in enumerate(zip(variables[estimate].values, variables[omega].values.T, strict=True)):
-        style = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)]
-        colour = COLOURS[number % len(COLOURS)]
-        panel.plot(axis.values, values, style, color=colour, linewidth=0.8, label=str(name))
+        dashes, colour = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)], COLOURS[number % len(COLOURS)]
+        panel.plot(axis.values, values, dashes, color=colour, linewidth=0.8, label=str(name))
 
 
 def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
@@ -131,9 +125,8 @@ def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> 
             plot_curve(panel, places, column, number, label)
         if is_logarithmic(first):
             panel.set_xscale("log")
-        label_axes(
-            panel, first.key if panel is panels[-1] else "", _named(sweep, name), legend="beside" if others else ""
-        )
+        across = first.key if panel is panels[-1] else ""
+        label_axes(panel, across, _named(sweep, name), legend="beside" if others else "")
 
 
 def _draw_maps(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 import numpy as np
-from mpi4py import MPI
 
 from hydroelastic.fem.closed.discretization import (
     Discretization,
@@ -14,7 +13,7 @@ from hydroelastic.fem.closed.discretization import (
     sought_modes,
     workable_tolerance,
 )
-from hydroelastic.fem.closed.section import DiscreteSection
+from hydroelastic.fem.closed.outline import singular_points, tank_outline, tank_triangles
 from hydroelastic.fem.cost import cost
 from hydroelastic.fem.tank.mesh import unknown_count
 from hydroelastic.meshes.geometry import BAFFLE
@@ -106,8 +105,11 @@ def _user_mesh(scene: TankParts) -> TaggedMesh | None:
 def _size(
     tank: Tank, own: Discretization, user_mesh: TaggedMesh | None, *, half: bool, released: bool = False
 ) -> tuple[str, int]:
-    section = DiscreteSection(MPI.COMM_SELF, tank, own, half=half, released=released)
-    meshes = [user_mesh.cells] if user_mesh is not None else section.cells_of_layers()
+    if user_mesh is not None:
+        meshes = [user_mesh.cells]
+    else:
+        outline = tank_outline(tank, own.sizes, half=half)
+        meshes = tank_triangles(tank, outline, singular_points(tank, half=half, released=released), own).of_layers()
     cells = sum(map(len, meshes))
     unknowns = sum(unknown_count(len(np.unique(mesh)), len(mesh), own.degree) for mesh in meshes)
     where = " in half the tank" if half else ""

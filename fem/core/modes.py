@@ -199,20 +199,21 @@ class _Volumes:
 
 def _largest(operator: Array, count: int) -> tuple[Array, Array]:
     """The largest eigenvalues of a symmetric matrix, descending, and their vectors."""
-    solver = SLEPc.EPS().create(PETSc.COMM_SELF)
     matrix = PETSc.Mat().createDense(operator.shape, array=np.asfortranarray(operator), comm=PETSc.COMM_SELF)
-    solver.setOperators(matrix)
-    solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
-    solver.setType(SLEPc.EPS.Type.LAPACK if len(operator) <= max(_FEW, 3 * count) else SLEPc.EPS.Type.KRYLOVSCHUR)
-    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
-    solver.setDimensions(count)
-    solver.setTolerances(1e-14)
-    solver.solve()
-    if solver.getConverged() < count and solver.getType() != SLEPc.EPS.Type.LAPACK:
-        # Growth far beyond the waves: iterations do not tell these apart.
-        solver.setType(SLEPc.EPS.Type.LAPACK)
+    kinds = (SLEPc.EPS.Type.KRYLOVSCHUR, SLEPc.EPS.Type.LAPACK)
+    # Also where growth far beyond the waves leaves iterations without convergence.
+    for kind in kinds[len(operator) <= max(_FEW, 3 * count) :]:
+        solver = SLEPc.EPS().create(PETSc.COMM_SELF)
+        solver.setOperators(matrix)
+        solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
+        solver.setType(kind)
+        solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+        solver.setDimensions(count)
+        solver.setTolerances(1e-14)
         solver.solve()
-    if solver.getConverged() < count:
+        if solver.getConverged() >= count:
+            break
+    else:
         raise EigenSolverError(f"{solver.getConverged()} of {count} modes converged")
     vector = matrix.createVecRight()
     pairs = []

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.physics.attachments import Matrix
 from hydroelastic.physics.bodies import Body
@@ -153,3 +155,34 @@ def dof_of_motion(motion: Motion) -> Dof:
 def azimuthal_order(motion: Motion) -> int:
     """Return n of the factor cos nθ of the normal displacement by a motion of a solid of revolution."""
     return 0 if motion == "heave" else 1
+
+
+# Coupling and stiffness below this part of the largest are rounding.
+_NEGLIGIBLE = 1e-12
+
+
+def principal_motions(
+    body: RigidFloat, motions: tuple[Motion, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return n motions without coupling by stiffness or inertia as columns, their stiffness and inertia; dimensionless.
+
+    Each has the name and unit of the motion with the largest part of its kinetic energy.
+    """
+    places = [PLACES[motion] for motion in motions]
+    stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
+    turn = np.eye(len(motions))
+    # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
+    units = np.array([1.0 / body.hull.smallest_extent if place == 2 else 1.0 for place in places])
+    alike = np.abs(stiffness * units * units[:, None])
+    apart = alike - np.diag(np.diag(alike)) > _NEGLIGIBLE * alike.max(initial=0.0)
+    if apart.any():
+        coupled = np.flatnonzero(apart.any(axis=0))
+        own = np.ix_(coupled, coupled)
+        _, vectors = eigh(stiffness[own], np.diag(inertia[coupled]))
+        # Of vectors orthogonal in the inertia, each is named after the motion that dominates it.
+        _, order = linear_sum_assignment(-(vectors**2) * inertia[coupled, None])
+        vectors = vectors[:, order]
+        turn[own] = vectors / np.diag(vectors)
+    restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
+    restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
+    return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)

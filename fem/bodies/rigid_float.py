@@ -7,17 +7,13 @@ from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
-from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body, rigid_shapes
 from hydroelastic.physics.dofs import PLACES, Motion, body_name
-from hydroelastic.physics.floats import RigidFloat, dof_of_motion
+from hydroelastic.physics.floats import RigidFloat, dof_of_motion, principal_motions
 from hydroelastic.physics.symmetry import Parity, motion_parity
 
-# Coupling and stiffness below this part of the largest are rounding.
-_NEGLIGIBLE = 1e-12
 # Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
 _ADDED_IN_HEAVE = pi / 8.0
 
@@ -67,30 +63,6 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
         mass=np.diag(part * inertia),
         singular_points=_singular_points(body),
     )
-
-
-def principal_motions(
-    body: RigidFloat, motions: tuple[Motion, ...]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return n motions without coupling by stiffness or inertia, dimensionless."""
-    places = [PLACES[motion] for motion in motions]
-    stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
-    turn = np.eye(len(motions))
-    # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
-    units = np.array([1.0 / body.hull.smallest_extent if place == 2 else 1.0 for place in places])
-    alike = np.abs(stiffness * units * units[:, None])
-    apart = alike - np.diag(np.diag(alike)) > _NEGLIGIBLE * alike.max(initial=0.0)
-    if apart.any():
-        coupled = np.flatnonzero(apart.any(axis=0))
-        own = np.ix_(coupled, coupled)
-        _, vectors = eigh(stiffness[own], np.diag(inertia[coupled]))
-        # Of vectors orthogonal in the inertia, each is named after the motion that dominates it.
-        _, order = linear_sum_assignment(-(vectors**2) * inertia[coupled, None])
-        vectors = vectors[:, order]
-        turn[own] = vectors / np.diag(vectors)
-    restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
-    restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
-    return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)
 
 
 def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:

@@ -51,23 +51,40 @@ def layer_names(tank: Tank) -> tuple[str, ...]:
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
 
 
-def released_surfaces(tank: Tank, *, released: bool) -> tuple[str, ...]:
-    """Return the names of facets with ψ = 0: a pressure-release top, or in the limit of infinite frequency a free one;
-    but for order 0 also the axis of revolution, as finite energy asks."""
-    is_zero = tank.top == "pressure_release" or (released and tank.top == "free")
-    top = (FREE_SURFACE,) if is_zero and tank.levels[-1].is_open else ()
-    return (*top, AXIS) if tank.geometry.is_revolved and tank.geometry.order else top
+def zero_potential_surfaces(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
+    """Return the names of surfaces with ψ = 0: a pressure-release top, or in the infinite-frequency limit a free
+    one."""
+    is_zero = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
+    return (FREE_SURFACE,) if is_zero and tank.levels[-1].is_open else ()
 
 
-def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool) -> Outline:
-    builder = _Builder(tank, sizes, half)
+def zero_on_axis(tank: Tank) -> tuple[str, ...]:
+    """Return the name of the axis of revolution where ψ = 0 on it, as finite energy asks but for order 0."""
+    return (AXIS,) if tank.geometry.is_revolved and tank.geometry.order else ()
+
+
+def unsized(tank: Tank) -> tuple[float, ...]:
+    """Return infinite sizes of elements."""
+    return (inf,) * len(tank.pieces)
+
+
+def tank_outline(tank: Tank, sizes: tuple[float, ...], *, half: bool = False, joined: bool = False) -> Outline:
+    """Return the outline of a tank, or of its left half.
+
+    Args:
+        tank: dimensionless.
+        sizes: largest elements on each piece of the still levels, of a float along its contour.
+        half: whether of the left half alone.
+        joined: whether two liquids share their nodes at an interface, across which ρψ is continuous then.
+    """
+    builder = _Builder(tank, sizes, half, joined)
     regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
     return Outline(curves=tuple(builder.curves), regions=tuple(regions))
 
 
 class _Builder:
-    def __init__(self, tank: Tank, sizes: tuple[float, ...], half: bool) -> None:
-        self.tank, self.half, self.right = tank, half, MIDDLE if half else 1.0
+    def __init__(self, tank: Tank, sizes: tuple[float, ...], half: bool, joined: bool) -> None:
+        self.tank, self.half, self.joined, self.right = tank, half, joined, MIDDLE if half else 1.0
         pieces = [(level.below, piece) for level in tank.levels for piece in level.pieces]
         self.sizes = dict(zip(pieces, sizes, strict=True))
         self.contours = {piece.body: size for (_, piece), size in self.sizes.items() if piece.body in tank.hulls}
@@ -129,6 +146,8 @@ class _Builder:
             level.above is not None,
         )
         name = INTERFACE if cut else LID if level.kind == "rigid" else FREE_SURFACE
+        if cut and self.joined and piece.body is None:
+            name, cut = "", False
         nodes: dict[float, float] = {}
         if piece.body is not None:
             name, nodes = body_name(piece.body + 1), self.tank.nodes_of(piece.body)
@@ -144,9 +163,9 @@ class _Builder:
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
         arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
-            arcs = _beside(arcs, self.right, -1.0)
+            arcs = arcs_beside(arcs, self.right, -1.0)
         if self.tank.geometry.is_revolved and low < 0.0:
-            arcs = _beside(arcs, 0.0, 1.0)
+            arcs = arcs_beside(arcs, 0.0, 1.0)
         size, name = self.contours[piece.body], body_name(piece.body + 1)
         path = [
             (self._curve(name, smooth.start, smooth.end, arc=None if smooth.straight else smooth, size=size), True)
@@ -214,7 +233,7 @@ def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
         yield arc.part(first, last, start=start, end=end)
 
 
-def _beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
+def arcs_beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
     """The part of a contour left (−1) or right (1) of the mirror plane; the contour is its own image and meets it
     once."""
     kept = []
@@ -243,10 +262,10 @@ def _onto(arc: Arc, x: float) -> Arc:
 
 _MIRRORS = (AXIS, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
-_WALLS = {BOTTOM, *_MIRRORS}
+WALLS = {BOTTOM, *_MIRRORS}
 
 # Largest change of direction at a joint of arcs that counts as smooth, rad.
-_SMOOTH = 1e-6
+SMOOTH = 1e-6
 # α of a smooth body at an interface across which ρψ is continuous: r² ln r beside the jump of the slope.
 _JUMP = 2.0
 # α where the flux on a side jumps: r ln r.
@@ -285,20 +304,21 @@ class SingularPoint(NamedTuple):
 
 def singular_points(tank: Tank, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
     """Return the singular points of a tank, or of its left half, up to exponents that cells do not feel."""
-    outline = tank_outline(tank, (inf,) * len(tank.pieces), half=half)
-    zero, kinks, smooth = released_surfaces(tank, released=released), _kinks(tank, released=released), _guided(tank)
+    outline = tank_outline(tank, unsized(tank), half=half)
+    zero = (*zero_potential_surfaces(tank, infinite_frequency=released), *zero_on_axis(tank))
+    jumps, smooth = kinks(tank, released=released), _guided(tank)
     points = []
-    for point, around in _wedges(outline).items():
+    for point, around in wedges(outline).items():
         if point in smooth:
             continue
-        exponents = [_exponent(sector, zero, released) for sector in _sectors(outline, around, released)]
-        sharpest = min([*exponents, kinks.get(point, inf), _bend(outline, around)])
+        exponents = [exponent_in(sector, zero, released) for sector in sectors(outline, around, released)]
+        sharpest = min([*exponents, jumps.get(point, inf), _bend(outline, around)])
         if sharpest < _SMOOTH_ENOUGH:
             points.append(SingularPoint(point, sharpest))
     return tuple(points)
 
 
-class _Wedge(NamedTuple):
+class Wedge(NamedTuple):
     """A region's wedge at a point, between the curve of its boundary that leaves the point and the one that arrives."""
 
     leaving: int
@@ -306,14 +326,15 @@ class _Wedge(NamedTuple):
     angle: float
 
 
-def _wedges(outline: Outline) -> dict[Point, list[_Wedge]]:
-    found: dict[Point, list[_Wedge]] = defaultdict(list)
+def wedges(outline: Outline) -> dict[Point, list[Wedge]]:
+    """Return the wedges of all regions at each end of a curve."""
+    found: dict[Point, list[Wedge]] = defaultdict(list)
     for region in outline.regions:
         for (coming, forward), (leaving, onwards) in zip(region.loop, (*region.loop[1:], region.loop[0]), strict=True):
             point = outline.curves[leaving].start if onwards else outline.curves[leaving].end
             back = _direction(outline, coming, from_start=not forward)
             ahead = _direction(outline, leaving, from_start=onwards)
-            found[point].append(_Wedge(leaving=leaving, coming=coming, angle=(back - ahead) % (2.0 * pi)))
+            found[point].append(Wedge(leaving=leaving, coming=coming, angle=(back - ahead) % (2.0 * pi)))
     return found
 
 
@@ -324,13 +345,13 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
     return atan2(y_near - y, x_near - x)
 
 
-class _Sector(NamedTuple):
+class Sector(NamedTuple):
     names: tuple[str, str]
     angle: float
     crossed: bool
 
 
-def _sectors(outline: Outline, around: list[_Wedge], released: bool) -> Iterator[_Sector]:
+def sectors(outline: Outline, around: list[Wedge], released: bool = False) -> Iterator[Sector]:
     by_leaving = {wedge.leaving: wedge for wedge in around}
     inner = {
         wedge.coming
@@ -345,27 +366,27 @@ def _sectors(outline: Outline, around: list[_Wedge], released: bool) -> Iterator
         while last in inner:
             angle, last = angle + by_leaving[last].angle, by_leaving[last].coming
         names = outline.curves[wedge.leaving].name, outline.curves[last].name
-        yield _Sector(names=names, angle=angle, crossed=last != wedge.coming)
+        yield Sector(names=names, angle=angle, crossed=last != wedge.coming)
 
 
-def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_pressure: bool) -> float:
+def exponent_in(sector: Sector, zero_potential: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
     # A wall is a mirror: the sector continues as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
     if not any(body_number(name) for name in sector.names):
         # Between walls ψ is singular at corners of the bed that point into the liquid.
-        return pi / angle if set(sector.names) <= _WALLS and angle > pi + _SMOOTH else inf
-    if (len(set(sector.names)) == 1 or {AXIS, SYMMETRY_PLANE} & {*sector.names}) and abs(angle - pi) < _SMOOTH:
+        return pi / angle if set(sector.names) <= WALLS and angle > pi + SMOOTH else inf
+    if (len(set(sector.names)) == 1 or {AXIS, SYMMETRY_PLANE} & {*sector.names}) and abs(angle - pi) < SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
     return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle
 
 
-def _bend(outline: Outline, around: list[_Wedge]) -> float:
+def _bend(outline: Outline, around: list[Wedge]) -> float:
     """α where the curvature of a contour jumps, as between a straight side and a round bilge; else infinite."""
     for wedge in around:
         curves = [outline.curves[number] for number in (wedge.leaving, wedge.coming)]
-        if any(curve.path is not None for curve in curves) and abs(wedge.angle - pi) < _SMOOTH:
+        if any(curve.path is not None for curve in curves) and abs(wedge.angle - pi) < SMOOTH:
             point = {curves[0].start, curves[0].end} & {curves[1].start, curves[1].end}
             one, other = (_curvature(curve, from_start=curve.start in point) for curve in curves)
             # Both are seen from the point outwards: of a smooth curve they have opposite signs.
@@ -383,7 +404,7 @@ def _curvature(curve: Curve, *, from_start: bool) -> float:
     return float(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other) / np.hypot(*one))
 
 
-def _kinks(tank: Tank, *, released: bool) -> dict[Point, float]:
+def kinks(tank: Tank, *, released: bool = False) -> dict[Point, float]:
     """Points of bodies at which the displacement of a thin float jumps, or the slope or curvature of a beam."""
     on_hulls = {kink: _SIDE_JUMPS for hull in tank.hulls.values() for kink in hull.kinks}
     if released:

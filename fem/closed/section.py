@@ -40,7 +40,14 @@ from hydroelastic.fem.closed.discretization import (
     rounding_error,
     sought_modes,
 )
-from hydroelastic.fem.closed.outline import SingularPoint, layer_names, released_surfaces, singular_points, tank_outline
+from hydroelastic.fem.closed.outline import (
+    SingularPoint,
+    layer_names,
+    singular_points,
+    tank_outline,
+    zero_on_axis,
+    zero_potential_surfaces,
+)
 from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, first_elastic, float_modes
 from hydroelastic.fem.core.adaptive import largest, solve_adaptive
 from hydroelastic.fem.core.bodies import Body, extension, moving_bodies
@@ -158,7 +165,7 @@ class DiscreteSection:
             if level.moves and not (self.released and level.above is None)
         ]
         loads = Loads(self.liquid(degree), surfaces, [body_name(index + 1) for index in range(len(tank.bodies))])
-        zero = released_surfaces(tank, released=self.released)
+        zero = (*zero_potential_surfaces(tank, infinite_frequency=self.released), *zero_on_axis(tank))
         if self.half:
             counts = shapes_of_twins(tank, counts)
         pencils: dict[Parity | None, Pencil] = {}

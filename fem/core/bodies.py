@@ -21,13 +21,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
-from scipy.optimize import linear_sum_assignment
 
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.physics.beams import Beam
-from hydroelastic.physics.dofs import PLACES, Dof, body_name
-from hydroelastic.physics.floats import RigidFloat, dof_of_motion
+from hydroelastic.physics.dofs import Dof, body_name
+from hydroelastic.physics.floats import RigidFloat, dof_of_motion, principal_motions
 from hydroelastic.physics.symmetry import Parity, left_bodies, motion_parity, twin_of
 from hydroelastic.physics.tank import Tank
 
@@ -35,9 +33,6 @@ Array = NDArray[np.float64]
 Shapes = Callable[[Array, Array], Array]
 """Points (n, dim) on the wetted surface, and the side sign of each (−1 left, 1 right of a slit, 0 elsewhere) →
 displacements (shapes, dim, n)."""
-
-# Coupling and stiffness below this part of the largest are rounding.
-_NEGLIGIBLE = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,30 +128,6 @@ def rigid_float(tank: Tank, index: int, _count: int, parity: Parity | None) -> B
         motions=turn,
         is_slit=own.hull.is_thin,
     )
-
-
-def principal_motions(body: RigidFloat, motions: tuple[Any, ...]) -> tuple[Array, Array, Array]:
-    """Motions without coupling by stiffness or inertia as columns, their stiffness and inertia.
-
-    Each has the name and unit of the motion with the largest part of its kinetic energy.
-    """
-    places = [PLACES[motion] for motion in motions]
-    stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
-    turn = np.eye(len(motions))
-    # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
-    units = np.array([1.0 / body.hull.smallest_extent if place == 2 else 1.0 for place in places])
-    alike = np.abs(stiffness * units * units[:, None])
-    apart = alike - np.diag(np.diag(alike)) > _NEGLIGIBLE * alike.max(initial=0.0)
-    if apart.any():
-        coupled = np.flatnonzero(apart.any(axis=0))
-        own = np.ix_(coupled, coupled)
-        _, vectors = eigh(stiffness[own], np.diag(inertia[coupled]))
-        _, order = linear_sum_assignment(-(vectors**2) * inertia[coupled, None])
-        vectors = vectors[:, order]
-        turn[own] = vectors / np.diag(vectors)
-    restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
-    restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
-    return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)
 
 
 BODIES: dict[type, Callable[[Tank, int, int, Parity | None], Body]] = {Beam: beam, RigidFloat: rigid_float}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import isfinite
 
+from hydroelastic.fem.closed.outline import zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.liquid import LiquidSpace, liquid_space
 from hydroelastic.fem.open_water.basin import AbsorbingLayer, OpenBasin, open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, GROWTH, Band, OpenModel, scaling_of
@@ -12,7 +13,6 @@ from hydroelastic.fem.open_water.pencil import build_open_pencil
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, tank_layers, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, unknown_count
-from hydroelastic.fem.tank.outline import zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     radians,

@@ -21,6 +21,7 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
 from hydroelastic.fem.cells import nearest_in_cells
+from hydroelastic.fem.closed.outline import arcs_beside
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.attempts import best_over_band
@@ -42,7 +43,6 @@ from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import boundary_error, joined_errors
-from hydroelastic.fem.tank.outline import arcs_beside
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.physics.contours import points_along
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
+from hydroelastic.fem.closed.outline import zero_potential_surfaces
 from hydroelastic.fem.study.singular_points import plain_outline, singular_exponents
 from hydroelastic.fem.tank.mesh import geometry_of, is_plain
-from hydroelastic.fem.tank.outline import zero_potential_surfaces
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.nested import NestedMeshes, outline_meshes, rectangle_meshes
 from hydroelastic.meshes.outline import GradedPoint

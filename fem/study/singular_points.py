@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
+from hydroelastic.fem.closed.outline import tank_outline, zero_potential_surfaces
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
@@ -25,8 +25,7 @@ _WALL, _PLANE = "wall", "plane"
 def plain_outline(tank: Tank, size: float = inf, *, half: bool) -> Outline:
     """Return the outline of a tank, or of its left half, with one size of elements along levels and floats, in tank
     lengths, without rings."""
-    sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, size))
-    return tank_outline(tank, sizes, half=half)
+    return tank_outline(tank, (size,) * len(tank.pieces), half=half)
 
 
 def has_curved_contours(tank: Tank) -> bool:

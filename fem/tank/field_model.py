@@ -8,6 +8,7 @@ from dataclasses import replace
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import body_model
+from hydroelastic.fem.closed.outline import layer_names, zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.liquid import Layer, liquid_space
 from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.liquid_pencil import build_pencil
@@ -15,7 +16,6 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import loads_with_fluxes
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
-from hydroelastic.fem.tank.outline import layer_names, zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE

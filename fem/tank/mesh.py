@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hydroelastic.fem.tank.outline import Sizes, tank_outline, unsized
+from hydroelastic.fem.closed.outline import tank_outline, unsized
 from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.fem.tank.singularities import tank_singular_points
 from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, tank_geometry
@@ -61,13 +61,8 @@ def make_mesh(
 
 def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool) -> Outline:
     """Return the outline of a tank with graded points at its singular points, graded according to their exponents."""
-    contours = {
-        piece.body: size
-        for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
-        if piece.body in tank.hulls
-    }
-    sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
-    outline = tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency)
+    sizes = resolution.surface_sizes
+    outline = tank_outline(tank, sizes, half=half, joined=infinite_frequency)
     if resolution.tip_size is None:
         return outline
     exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)

@@ -200,7 +200,7 @@ def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
     """Return the smallest α of ψ ~ r^α at a tip, a corner or a contact point."""
     if not tank.hulls:
         return 0.5 if infinite_frequency or tank.top == "pressure_release" else 1.0
-    from hydroelastic.fem.tank.outline import unsized
+    from hydroelastic.fem.closed.outline import unsized
     from hydroelastic.fem.tank.singularities import tank_singular_points
 
     points = tank_singular_points(tank, unsized(tank), half=False, infinite_frequency=infinite_frequency)

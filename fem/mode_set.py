@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from petsc4py import PETSc
+
+from hydroelastic.fem.surfaces import Body
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,3 +72,11 @@ class ModeSet:
     growing: tuple[Mode, ...] = ()
     eigenvectors: tuple[PETSc.Vec, ...] = ()
     bounds: np.ndarray | None = None
+
+
+def bending_fractions(modes: Sequence[Mode], bodies: tuple[Body, ...]) -> np.ndarray:
+    """Return the strain energy of bending over the total potential energy, shape (modes,)."""
+    bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
+    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), len(bending))
+    fractions: np.ndarray = amplitudes**2 @ bending / np.array([mode.eigenvalue for mode in modes])
+    return fractions

@@ -9,9 +9,6 @@ from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
-FAR_ENOUGH = 1.5
-"""Limit of λ to which the mode of a float's motion is sought, as a multiple of its λ at infinite frequency."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class BodyModel(ABC):

@@ -8,7 +8,8 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
+from hydroelastic.fem.bodies.model import BodyModel
+from hydroelastic.fem.closed.discretization import FAR_ENOUGH
 from hydroelastic.fem.surfaces import Body, rigid_shapes
 from hydroelastic.physics.dofs import PLACES, Motion, body_name
 from hydroelastic.physics.floats import RigidFloat, dof_of_motion, principal_motions

@@ -12,13 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.closed.discretization import FAR_ENOUGH
-from hydroelastic.fem.core.bodies import Body
-from hydroelastic.fem.core.pencil import Surface
 from hydroelastic.physics.dofs import Dof
 
 Array = NDArray[np.float64]
@@ -32,6 +31,28 @@ LEAST_OF_ONE_MODE = 0.25
 _CONSTRAINED = 1e-18
 # A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
 _SHARED_MOTION = 2.0
+
+
+class Body(Protocol):
+    """What is asked of a body in its unknowns."""
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def stiffness(self) -> Array: ...
+    @property
+    def mass(self) -> Array: ...
+
+
+class Surface(Protocol):
+    """What is asked of a surface: the layers beside it, ``None`` above a free one."""
+
+    @property
+    def above(self) -> int | None: ...
+    @property
+    def below(self) -> int: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,13 +83,18 @@ def first_elastic(bodies: Sequence[Body], body: int) -> tuple[int, int]:
     return first, sum(other.size for other in bodies[:body]) + first
 
 
+def participations(values: Array, amplitudes: Array, bodies: Sequence[Body], body: int) -> Array:
+    """pₙ of a beam's first dry mode, shape (modes,); `amplitudes` are those of all bodies, shape (modes, unknowns)."""
+    first, place = first_elastic(bodies, body)
+    # Modes have unit generalized mass, so φᵀKφ = λ.
+    return np.asarray(bodies[body].stiffness[first] * amplitudes[:, place] ** 2 / values)
+
+
 def elastic_tone(
     values: Array, amplitudes: Array, bodies: Sequence[Body], body: int, *, released: float | None = None
 ) -> ElasticTone:
     """Return the mode of largest participation."""
-    first, place = first_elastic(bodies, body)
-    # Modes have unit generalized mass, so φᵀKφ = λ.
-    parts = bodies[body].stiffness[first] * amplitudes[:, place] ** 2 / values
+    parts = participations(values, amplitudes, bodies, body)
     order = np.argsort(parts)[::-1]
     best, second = parts[order[0]], parts[order[1]] if len(parts) > 1 else 0.0
     sharing = np.flatnonzero(parts >= SHARED * best)
@@ -149,6 +175,8 @@ def float_modes(
 def mode_kinds(energies: Array, bodies: Sequence[Body], surfaces: Sequence[Surface]) -> list[str]:
     """What has most of the potential energy of each mode: a motion of the bodies ("heave", "pitch", "sway", "roll",
     "elastic"), or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two."""
+    if not len(energies):
+        return []
     of_bodies = [dof.kind for body in bodies for dof in body.dofs]
     of_surfaces = [
         "interface wave" if surface.above is not None else "surface wave" if surface.below else "sloshing"

@@ -14,6 +14,7 @@ from math import ceil, inf
 import numpy as np
 
 from hydroelastic.fem.adaptive import AdaptiveSolution, ErrorEstimate, adaptive_solve
+from hydroelastic.fem.closed.tones import ElasticTone, elastic_tone
 from hydroelastic.fem.level_bed.orders import has_waves, order_problem, plate_line
 from hydroelastic.fem.level_bed.resolution import (
     LAYER_RATIO,
@@ -27,7 +28,6 @@ from hydroelastic.fem.level_bed.resolution import (
 from hydroelastic.fem.level_bed.separation import Separation
 from hydroelastic.fem.level_bed.solution import PlateTone
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import MOST_MODES_TO_TONE
 from hydroelastic.modal.plate.line_modes import FEW_MODES, lowest_dry
 from hydroelastic.physics.dofs import FIRST_ELASTIC
@@ -190,7 +190,7 @@ def _once(
     first = pencil.bodies[body].dofs.index(FIRST_ELASTIC)
     while True:
         modes = solve_modes(pencil, count, shapes=0)
-        tone = elastic_tone(modes, pencil.bodies, body, pressure_release=release)
+        tone = elastic_tone(modes.eigenvalues, modes.elastic_amplitudes, pencil.bodies, body, released=release)
         # With ψ = 0 on the water all modes are those of plates, and the softer plates' are below.
         if tone.certain or not pressure_release or len(modes.eigenvalues) < count:
             break

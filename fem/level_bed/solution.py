@@ -8,12 +8,12 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from hydroelastic.fem.closed.tones import ElasticTone
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.elastic_tone import ElasticTone
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
 

@@ -16,6 +16,7 @@ from math import ceil, inf, pi
 import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.closed.tones import ElasticTone, elastic_tone
 from hydroelastic.fem.level_bed.solution import PlateTone
 from hydroelastic.fem.mode_set import ModeSet
 from hydroelastic.fem.modes import solve_modes
@@ -25,7 +26,6 @@ from hydroelastic.fem.plan.plan import PlanModel, PlanResolution, plan_resolutio
 from hydroelastic.fem.plan.polynomials import water_wavenumber
 from hydroelastic.fem.plan.released import released_tones
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.modal.plate.rectangle import ClassParity
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
@@ -118,7 +118,7 @@ def _listed(found: ClassModes, errors: np.ndarray, number: int, place: int, tone
     one = found.classes[number]
     if not len(one.modes.eigenvalues):
         return None
-    known = elastic_tone(one.modes, one.pencil.bodies, place, pressure_release=tone.pressure_release)
+    known = _guess(one.modes, one.pencil, place, tone)
     index = (number, known.index)
     if not known.certain or index not in found.origins:
         return None
@@ -181,7 +181,8 @@ def _sought(
 
 
 def _guess(modes: ModeSet, pencil: CoupledPencil, place: int, tone: PlateTone) -> ElasticTone:
-    return elastic_tone(modes, pencil.bodies, place, pressure_release=tone.pressure_release)
+    values, amplitudes = modes.eigenvalues, modes.elastic_amplitudes
+    return elastic_tone(values, amplitudes, pencil.bodies, place, released=tone.pressure_release)
 
 
 def _resolved(

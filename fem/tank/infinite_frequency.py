@@ -16,10 +16,10 @@ from mpi4py import MPI
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.bodies.registry import toned_bodies
+from hydroelastic.fem.closed.tones import ElasticTone, elastic_tone
 from hydroelastic.fem.progress import Report
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
-from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import (
     ROUNDING_OF_SPREAD,
     FrequencyErrors,
@@ -152,7 +152,7 @@ def infinite_frequency_limit(
 def _released(
     tank: Tank, modes: ReleasedModes, resolution: Resolution, tolerance: float
 ) -> Attempt[InfiniteFrequencyLimit]:
-    found = elastic_tone(modes, modes.bodies, 0)
+    found = elastic_tone(modes.eigenvalues, modes.elastic_amplitudes, modes.bodies, 0)
     errors, tone = modes.errors_of(found.index), None
     if not _is_hidden(modes.eigenvalues, found, tolerance):
         tone = PressureReleaseTone(eigenvalue=float(modes.eigenvalues[found.index]), error=errors.largest_total)
@@ -176,7 +176,8 @@ def _with_tones(
     count = resolution.modes
     while True:
         field = solve_parts(mesh, tank, resolution.shapes, pencils, count)
-        found = [elastic_tone(field.modes, field.bodies, body) for body in toned_bodies(tank)]
+        values, amplitudes = field.modes.eigenvalues, field.modes.elastic_amplitudes
+        found = [elastic_tone(values, amplitudes, field.bodies, body) for body in toned_bodies(tank)]
         if all(tone.certain for tone in found) or len(field.modes.eigenvalues) < count:
             break
         count *= 2

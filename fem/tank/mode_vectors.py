@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
 
+from hydroelastic.fem.closed.tones import participations
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.fem.sweep.mode_vectors import ModeVectors
-from hydroelastic.fem.tank.elastic_tone import participations
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.geometry import INTERFACE
 from hydroelastic.physics.tank import StillLevel
@@ -41,9 +41,9 @@ def mode_vectors(solution: TankSolution) -> ModeVectors:
         relative_error=solution.relative_errors,
         symmetry=np.array([_SIGNS[field.parity(index)] for index in range(count)]),
         blocks=blocks,
-        participation=np.array([participations(modes, field.bodies, beam) for beam in beams]).reshape(
-            len(beams), count
-        ),
+        participation=np.array(
+            [participations(modes.eigenvalues, modes.elastic_amplitudes, field.bodies, beam) for beam in beams]
+        ).reshape(len(beams), count),
         pressure_release=np.array(
             [
                 np.nan if tone.pressure_release is None else solution.omega(tone.pressure_release)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from mpi4py import MPI
 
+from hydroelastic.fem.closed.tones import mode_kinds
 from hydroelastic.fem.progress import Report
-from hydroelastic.fem.tank.elastic_tone import mode_kinds
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.physics.round_plates import LOWEST_BENT
 from hydroelastic.physics.tank import Tank
@@ -93,7 +93,7 @@ def _modes(solution: TankSolution, order: int) -> list[OrderedMode]:
             index=index,
             omega=solution.omega(mode.eigenvalue),
             relative_error=float(solution.relative_errors[index]),
-            kind=mode_kinds([mode], field.bodies, field.surfaces)[0],
+            kind=mode_kinds(mode.energy[None], field.bodies, field.surfaces)[0],
             multiplicity=2 if order and solution.tank.geometry.is_revolved else 1,
         )
         for index, mode in enumerate(solution.asked)

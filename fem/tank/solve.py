@@ -17,15 +17,14 @@ from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.bodies.registry import toned_bodies
+from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, float_modes
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.mode_set import Mode, ModeSet
 from hydroelastic.fem.progress import Report
-from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
 from hydroelastic.fem.tank.field_model import distributed_user_mesh
 from hydroelastic.fem.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
-from hydroelastic.fem.tank.float_modes import FloatMode, float_modes
 from hydroelastic.fem.tank.infinite_frequency import (
     InfiniteFrequencyAddedMass,
     InfiniteFrequencyLimit,
@@ -190,7 +189,10 @@ def _judged(
     tolerance, count = asked_for
     tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(toned_bodies(tank)))
     complete = len(field.modes.eigenvalues) <= resolution.modes
-    moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
+    added, bodies, values = limit.added_mass, field.bodies, field.modes.eigenvalues
+    if added is not None:
+        added = np.concatenate([added.principal(tank, index, bodies[index].motions) for index in tank.rigid])
+    moved = float_modes(bodies, tank.rigid, values, field.modes.elastic_amplitudes, added, complete=complete)
     asked = min(count, len(field.modes.eigenvalues))
     beams = (tone.tone.index for tone in tones if tone.tone is not None)
     floats = (mode.index for mode in moved if mode.index is not None)
@@ -226,7 +228,9 @@ def _tone(
     """The first elastic tone of a beam, with its pressure-release tone."""
     release = limit.tones[beam] if limit.tones else None
     eigenvalue = release.eigenvalue if release is not None else None
-    tone: ElasticTone | None = elastic_tone(field.modes, field.bodies, body, pressure_release=eigenvalue)
+    tone: ElasticTone | None = elastic_tone(
+        field.modes.eigenvalues, field.modes.elastic_amplitudes, field.bodies, body, released=eigenvalue
+    )
     reason = ""
     assert tone is not None
     if not tone.certain and not resolution.reaches_tones[beam]:

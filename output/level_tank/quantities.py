@@ -9,8 +9,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from hydroelastic.fem.closed.tones import added_mass_of, mode_kinds
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone
-from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fractions, mode_kinds
+from hydroelastic.fem.mode_set import bending_fractions
 from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
@@ -52,7 +53,7 @@ def _modes(result: EstimatedLevelTank) -> Iterator[ShownMode]:
 
 
 def _kind(mode: ShownMode) -> str:
-    return mode_kinds([mode.one.mode], mode.one.bodies, mode.one.problem.pencil.surfaces)[0]
+    return mode_kinds(mode.one.mode.energy[None], mode.one.bodies, mode.one.problem.pencil.surfaces)[0]
 
 
 def _tones(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
@@ -71,7 +72,7 @@ def _tone(solution: LevelSolution, tone: PlateTone) -> dict[str, Any]:
     }
     if tone.tone is None or tone.eigenvalue is None or tone.relative_error is None:
         return found
-    added, error = added_mass(tone.stiffness, tone.mass, tone.eigenvalue, tone.relative_error)
+    added, error = added_mass_of(tone.stiffness, tone.mass, tone.eigenvalue, tone.relative_error)
     values = [
         number
         for number, one in enumerate(solution.modes, 1)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fractions, mode_kinds
-from hydroelastic.fem.tank.float_modes import FloatMode
+from hydroelastic.fem.closed.tones import FloatMode, added_mass_of, mode_kinds
+from hydroelastic.fem.mode_set import bending_fractions
 from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate, difference
@@ -23,7 +23,7 @@ def natural_modes(solution: TankSolution) -> list[Values]:
     """Return the modes asked for."""
     rows = []
     field = solution.field
-    kinds = mode_kinds(solution.asked, field.bodies, field.surfaces)
+    kinds = mode_kinds(np.array([mode.energy for mode in solution.asked]), field.bodies, field.surfaces)
     fractions = bending_fractions(solution.asked, field.bodies)
     for index, mode in enumerate(solution.asked):
         omega = solution.omega(mode.eigenvalue)
@@ -58,7 +58,7 @@ def first_elastic_tone(solution: TankSolution, tone: ToneSolution) -> Values:
         # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
         shapes = solution.field.bodies[tone.body]
         first = shapes.dofs.index(FIRST_ELASTIC)
-        added, added_error = added_mass(shapes.stiffness[first], shapes.mass[first, first], eigenvalue, error)
+        added, added_error = added_mass_of(shapes.stiffness[first], shapes.mass[first, first], eigenvalue, error)
         found |= {
             "omega": solution.omega(eigenvalue),
             "relative_error": error,
@@ -116,7 +116,7 @@ def _float_mode(solution: TankSolution, mode: FloatMode) -> Values:
         unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
         eigenvalue = float(solution.modes.eigenvalues[mode.index])
         error = float(solution.relative_errors[mode.index])
-        added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)
+        added, added_error = added_mass_of(mode.stiffness, mode.inertia, eigenvalue, error)
         found |= {
             "index": mode.index + 1,
             "omega": solution.omega(eigenvalue),
@@ -146,7 +146,7 @@ def growing_motions(solution: TankSolution) -> list[Values]:
             modes,
             field.growing_origins,
             solution.growing_errors,
-            mode_kinds(modes, field.bodies, field.surfaces),
+            mode_kinds(np.array([mode.energy for mode in modes]), field.bodies, field.surfaces),
             strict=True,
         )
     ]

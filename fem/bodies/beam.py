@@ -3,30 +3,18 @@
 from __future__ import annotations
 
 from functools import lru_cache, partial
-from math import ceil, pi
 from typing import NamedTuple
 
 import numpy as np
 
 from hydroelastic.fem.bodies.model import BodyModel
+from hydroelastic.fem.closed.discretization import expected_tone
+from hydroelastic.fem.core.bodies import dry_mode_count
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes, first_bending
+from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.symmetry import Parity
-
-# Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
-_DEEP_ELASTIC = 0.12787
-_DEEP_HEAVE = 0.39270
-_DEEP_COUPLING = 0.114
-# Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
-_TAIL = 0.45
-# Half waves of the first bending shape of a section.
-_FIRST_BENDING = 1.5
-# A section stiffer than the softest one by this factor over the tolerance is rigid within the tolerance.
-_RIGID = 100.0
-# Sections whose flexural rigidities differ by less than this factor have common dry modes.
-_ALIKE = 10.0
 
 
 class BeamModel(BodyModel):
@@ -59,28 +47,8 @@ class BeamModel(BodyModel):
         )
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
-        """Return the number of dry modes up to the shortest wave, and of a tail whose error falls like N⁻⁷.
-
-        Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. The
-        bending of stiffer ones matters less, like 1/EI, but is not represented below their first bending shape, of 3/2
-        half waves.
-        """
-        sections = self.beam.sections
-        softest = min(part.flexural_rigidity for part in sections)
-        phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in sections)
-        needed = 0.0
-        for part in sections:
-            ratio = part.flexural_rigidity / softest
-            length = sum(
-                other.length
-                for other in sections
-                if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
-            )
-            half_waves = wavenumber * ratio**-0.25 * length / pi
-            tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
-            hidden = _FIRST_BENDING if _ALIKE < ratio < _RIGID / tolerance else 0.0
-            needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
-        return ceil(needed) + 4 + len(self.beam.hinges)
+        """See `fem.core.bodies.dry_mode_count`."""
+        return dry_mode_count(self.beam, wavenumber, tolerance)
 
     @property
     def has_tone(self) -> bool:
@@ -88,13 +56,8 @@ class BeamModel(BodyModel):
         return True
 
     def expected_tones(self) -> tuple[float, ...]:
-        """Estimate λ of dry mode 1 coupled with heave, on deep open liquids with ψ = 0 beside the beam."""
-        beam, level = self.beam, self.tank.level_of(self.index)
-        liquid = beam.length * self.tank.density_at(level)
-        elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
-        heave = beam.mass_per_length + _DEEP_HEAVE * liquid
-        inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
-        return ((first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia,)
+        """See `fem.closed.discretization.expected_tone`."""
+        return (expected_tone(self.tank, self.index),)
 
 
 class _Shapes(NamedTuple):

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.bodies.model import BodyModel
-from hydroelastic.fem.closed.discretization import FAR_ENOUGH
+from hydroelastic.fem.closed.discretization import ends_of_motions
 from hydroelastic.fem.surfaces import Body, rigid_shapes
-from hydroelastic.physics.dofs import PLACES, Motion, body_name
+from hydroelastic.physics.dofs import Motion, body_name
 from hydroelastic.physics.floats import RigidFloat, dof_of_motion, principal_motions
 from hydroelastic.physics.symmetry import Parity, motion_parity
-
-# Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
-_ADDED_IN_HEAVE = pi / 8.0
 
 
 class FloatModel(BodyModel):
@@ -27,17 +23,8 @@ class FloatModel(BodyModel):
         return in_principal_motions(self.tank.floats[self.index], self.index, parity)
 
     def ends_of_motions(self) -> tuple[float, ...]:
-        """See `BodyModel.ends_of_motions`: multiples of the λ at infinite frequency of the restored motions."""
-        body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
-        width = body.hydrostatics.heave_stiffness / level.jump
-        ends = []
-        for motion in body.motions:
-            place = PLACES[motion]
-            if body.stiffness[place, place] > 0.0:
-                added = _ADDED_IN_HEAVE * self.tank.density_at(level) * width**2 if motion == "heave" else 0.0
-                expected = float(body.stiffness[place, place] / (body.inertia[place] + added))
-                ends.append(FAR_ENOUGH * expected)
-        return tuple(ends)
+        """See `BodyModel.ends_of_motions`."""
+        return ends_of_motions(self.tank, self.index)
 
 
 def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) -> Body:

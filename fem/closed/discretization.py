@@ -30,7 +30,7 @@ FAR_ENOUGH = 1.5
 # Most modes below a float's motion, or twice the requested modes, for its mode to be sought.
 _MOST_MODES_TO_MOTION = 40
 # κ₁ l of the first elastic dry mode.
-_FIRST_ROOT = 4.73
+FIRST_ROOT = 4.73
 # Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
 _DEEP_ELASTIC, _DEEP_HEAVE, _DEEP_COUPLING = 0.12787, 0.39270, 0.114
 # Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
@@ -90,11 +90,12 @@ class SoughtModes:
     reaches_tones: tuple[bool, ...]  # of each beam, whether its first elastic tone is expected among them
 
 
-def sought_modes(tank: Tank, modes: int) -> SoughtModes:
-    """The modes asked for, and those up to the first elastic tones and the motions of floats."""
+def sought_modes(
+    tank: Tank, *, modes: int, tones: tuple[float, ...] = (), motions: tuple[float, ...] = ()
+) -> SoughtModes:
+    """The modes asked for, and those up to the first elastic tones and the motions of floats, both by their λ."""
     moving = moving_pieces(tank)
-    tones = tuple(expected_tone(tank, index) for index in tank.elastic)
-    motions = tuple(end for index in tank.rigid for end in _ends_of_motions(tank, index))
+    # With too many modes below it, a tone or a float's motion is not sought unless more modes are requested.
     tone = _highest(tones, lambda value: _modes_to_tone(moving, value) <= MOST_MODES_TO_TONE)
     most = max(_MOST_MODES_TO_MOTION, 2 * modes)
     motion = _highest(motions, lambda value: ceil(modes_below(moving, value)) + 2 <= most)
@@ -112,6 +113,7 @@ def _modes_to_tone(moving: tuple[LevelPiece, ...], tone: float) -> int:
 
 
 def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> float | None:
+    """The highest value that is reached, by bisection: all below it are reached too."""
     ordered = sorted(values)
     count = bisect_left(ordered, True, key=lambda value: not reached(value))
     return ordered[count - 1] if count else None
@@ -127,7 +129,7 @@ def expected_tone(tank: Tank, index: int) -> float:
     return (first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia
 
 
-def _ends_of_motions(tank: Tank, index: int) -> list[float]:
+def ends_of_motions(tank: Tank, index: int) -> tuple[float, ...]:
     """λ up to which the mode of each restored motion of a float is sought."""
     body, level = tank.bodies[index], tank.level_of(index)
     assert isinstance(body, RigidFloat)
@@ -138,7 +140,7 @@ def _ends_of_motions(tank: Tank, index: int) -> list[float]:
         if body.stiffness[place, place] > 0.0:
             added = _ADDED_IN_HEAVE * tank.density_at(level) * width**2 if motion == "heave" else 0.0
             ends.append(FAR_ENOUGH * float(body.stiffness[place, place] / (body.inertia[place] + added)))
-    return ends
+    return tuple(ends)
 
 
 def discretization_of_modes(tank: Tank, tolerance: float, sought: SoughtModes) -> Discretization:
@@ -146,7 +148,9 @@ def discretization_of_modes(tank: Tank, tolerance: float, sought: SoughtModes) -
     moving = moving_pieces(tank)
     highest = squared_frequency_of_mode(moving, sought.accurate) if moving else 0.0
     return _discretization(
-        tank, tolerance, [_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces]
+        tank,
+        tolerance,
+        [shortest_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces],
     )
 
 
@@ -156,7 +160,7 @@ def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
         tank,
         tolerance,
         [
-            max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected_tone(tank, piece.body)))
+            max(FIRST_ROOT / piece.length, shortest_wavenumber(tank, level, piece, expected_tone(tank, piece.body)))
             if piece.body in tank.elastic
             else 0.0
             for level in tank.levels
@@ -166,7 +170,7 @@ def discretization_of_limit(tank: Tank, tolerance: float) -> Discretization:
     return found
 
 
-def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
+def shortest_wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
     return max((part.wavenumber(squared_frequency) for part in moving_parts(tank, level, piece)), default=0.0)
 
 

@@ -37,6 +37,8 @@ from hydroelastic.fem.closed.discretization import (
     SoughtModes,
     discretization_of_limit,
     discretization_of_modes,
+    ends_of_motions,
+    expected_tone,
     rounding_error,
     sought_modes,
 )
@@ -486,7 +488,9 @@ def solve_section(
     tank = physical.scaled()
     half = halves and is_mirror_image(tank)
     workable = max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(8, tank.depth))
-    sought = sought_modes(tank, modes)
+    tones = tuple(expected_tone(tank, index) for index in tank.elastic)
+    motions = tuple(end for index in tank.rigid for end in ends_of_motions(tank, index))
+    sought = sought_modes(tank, modes=modes, tones=tones, motions=motions)
     limit = None
     if (tank.elastic and tank.has_waves) or _has_added_mass(tank):
         report("limit of infinite frequency")

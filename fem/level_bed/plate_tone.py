@@ -14,6 +14,7 @@ from math import ceil, inf
 import numpy as np
 
 from hydroelastic.fem.adaptive import AdaptiveSolution, ErrorEstimate, adaptive_solve
+from hydroelastic.fem.closed.discretization import MOST_MODES_TO_TONE
 from hydroelastic.fem.closed.tones import ElasticTone, elastic_tone
 from hydroelastic.fem.level_bed.orders import has_waves, order_problem, plate_line
 from hydroelastic.fem.level_bed.resolution import (
@@ -28,7 +29,6 @@ from hydroelastic.fem.level_bed.resolution import (
 from hydroelastic.fem.level_bed.separation import Separation
 from hydroelastic.fem.level_bed.solution import PlateTone
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.fem.tank.resolution import MOST_MODES_TO_TONE
 from hydroelastic.modal.plate.line_modes import FEW_MODES, lowest_dry
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.physics.level_tank import LevelTank

@@ -8,8 +8,8 @@ from math import ceil, log, log10, pi, sqrt, tanh
 
 import numpy as np
 
+from hydroelastic.fem.closed.discretization import radians
 from hydroelastic.fem.level_bed.separation import Separation
-from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.level_tank import LevelTank

@@ -11,6 +11,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.closed.discretization import radians
 from hydroelastic.fem.level_bed.resolution import expected_eigenvalue
 from hydroelastic.fem.level_bed.solution import BY_INERTIA
 from hydroelastic.fem.mode_set import Mode
@@ -42,7 +43,6 @@ from hydroelastic.fem.plan.polynomials import (
 from hydroelastic.fem.plan.released import ReleasedProblem, released_plan
 from hydroelastic.fem.plan.truncation import plate_errors
 from hydroelastic.fem.progress import Report
-from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import edges_of, plan_mesh
 from hydroelastic.meshes.plan_grid import are_rectangles

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.closed.discretization import sought_modes
 from hydroelastic.fem.liquid_pencil import answered
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
@@ -22,7 +23,7 @@ from hydroelastic.fem.tank.resolution import (
     Resolution,
     infinite_frequency_resolution,
     initial_resolution,
-    sought_modes,
+    of_modes,
 )
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.beams import Beam
@@ -86,7 +87,7 @@ class SharedLiquids(Liquids):
     def first(self, tank: Tank, tolerance: float, modes: int) -> Resolution:
         """See `Liquids.first`; where these elements are too coarse, the estimate of the error tells."""
         tones, motions = expected_tones(tank), ends_of_motions(tank)
-        return sought_modes(tank, modes=modes, tones=tones, motions=motions).with_elements(self.of_field)
+        return of_modes(self.of_field, sought_modes(tank, modes=modes, tones=tones, motions=motions))
 
     def first_of_limit(self, tank: Tank, tolerance: float) -> Resolution:
         """See `Liquids.first_of_limit` and `first`."""

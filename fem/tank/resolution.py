@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil, e, log10
+from math import ceil, log10
 from typing import TYPE_CHECKING
 
 from hydroelastic.fem.bodies.registry import body_model, toned_bodies
+from hydroelastic.fem.closed.discretization import (
+    FIRST_ROOT,
+    SoughtModes,
+    radians,
+    shortest_wavenumber,
+    sought_modes,
+)
 from hydroelastic.physics.local_waves import (
-    LevelPiece,
-    modes_below,
-    moving_parts,
     moving_pieces,
     squared_frequency_of_mode,
 )
-from hydroelastic.physics.tank import Piece, StillLevel, Tank
+from hydroelastic.physics.tank import Tank
 
 if TYPE_CHECKING:
     from hydroelastic.physics.hulls import Hull
@@ -27,14 +29,8 @@ MOST_SHAPES = 400
 SMALLEST_TIP = 1e-13
 # The tolerance over the rounding error, so that other errors have a part of it too.
 _ROOM_FOR_ROUNDING = 5.0
-# κ₁ l of the first elastic dry mode.
-_FIRST_ROOT = 4.73
 # Number of modes per beam that contain its pressure-release tone: below it are rigid motions and modes of softer beams.
 _MODES_OF_A_BEAM = 6
-# Most modes below a first elastic tone that is sought; with more of them the tone is spread over many modes.
-MOST_MODES_TO_TONE = 200
-# Most modes below a float's motion, or twice the requested modes, for its mode to be sought.
-MOST_MODES_TO_MOTION = 40
 # Exponent α below which the radii of rings decrease more slowly.
 _SHARP = 0.75
 # α of a tank without singular points, on which nothing depends.
@@ -120,64 +116,20 @@ def initial_resolution(
     """
     sought = sought_modes(tank, modes=modes, tones=tones, motions=motions)
     moving = moving_pieces(tank)
-    highest = squared_frequency_of_mode(moving, sought.reported) if moving else 0.0
+    highest = squared_frequency_of_mode(moving, sought.accurate) if moving else 0.0
     tolerance = workable_tolerance(tolerance, tank.depth)
-    wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
+    wavenumbers = tuple(
+        shortest_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces
+    )
     resolution = resolution_for(
         tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, infinite_frequency=False)
     )
-    return sought.with_elements(resolution)
+    return of_modes(resolution, sought)
 
 
-@dataclass(frozen=True, kw_only=True)
-class SoughtModes:
-    """The modes to solve for.
-
-    Attributes:
-        modes: their number.
-        reported: number of those that must be accurate; the others, above, identify a tone.
-        reaches_tones: whether the first elastic tone of each beam is expected among them.
-    """
-
-    modes: int
-    reported: int
-    reaches_tones: tuple[bool, ...]
-
-    def with_elements(self, resolution: Resolution) -> Resolution:
-        """Return the elements and dry modes of a resolution for these modes."""
-        return replace(resolution, modes=self.modes, reaches_tones=self.reaches_tones, widened=False)
-
-
-def sought_modes(tank: Tank, *, modes: int, tones: tuple[float, ...], motions: tuple[float, ...]) -> SoughtModes:
-    """Return the modes to solve for, with the arguments of `initial_resolution`."""
-    moving = moving_pieces(tank)
-    # With too many modes below it, a tone or a float's motion is not sought unless more modes are requested.
-    tone = _highest(tones, lambda value: _modes_to_tone(moving, value) <= MOST_MODES_TO_TONE)
-    most_to_motion = max(MOST_MODES_TO_MOTION, 2 * modes)
-    motion = _highest(motions, lambda value: _modes_to_motion(moving, value) <= most_to_motion)
-    to_motion = [_modes_to_motion(moving, motion)] if motion is not None else []
-    return SoughtModes(
-        modes=max([modes, *([_modes_to_tone(moving, tone)] if tone is not None else []), *to_motion]),
-        reported=max([modes, *([ceil(modes_below(moving, tone)) + 1] if tone is not None else []), *to_motion]),
-        reaches_tones=tuple(tone is not None and other <= tone for other in tones),
-    )
-
-
-def _modes_to_tone(moving: tuple[LevelPiece, ...], tone: float) -> int:
-    """Number of modes that contain a tone, and enough above it where participations decrease as on a resonance
-    curve."""
-    return ceil(1.25 * modes_below(moving, tone)) + 4
-
-
-def _modes_to_motion(moving: tuple[LevelPiece, ...], motion: float) -> int:
-    return ceil(modes_below(moving, motion)) + 2
-
-
-def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> float | None:
-    """The highest value that is reached, by bisection: all below it are reached too."""
-    ordered = sorted(values)
-    count = bisect_left(ordered, True, key=lambda value: not reached(value))
-    return ordered[count - 1] if count else None
+def of_modes(resolution: Resolution, sought: SoughtModes) -> Resolution:
+    """Return the elements and dry modes of a resolution for the modes sought."""
+    return replace(resolution, modes=sought.modes, reaches_tones=sought.reaches_tones, widened=False)
 
 
 def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
@@ -185,7 +137,7 @@ def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[flo
     singularities."""
     expected = dict.fromkeys(tank.elastic, 0.0) | dict(zip(toned_bodies(tank), tones, strict=False))
     wavenumbers = tuple(
-        max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected[piece.body]))
+        max(FIRST_ROOT / piece.length, shortest_wavenumber(tank, level, piece, expected[piece.body]))
         if piece.body in expected
         else 0.0
         for level in tank.levels
@@ -205,12 +157,6 @@ def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
 
     points = tank_singular_points(tank, unsized(tank), half=False, infinite_frequency=infinite_frequency)
     return min((point.exponent for point in points), default=_SMOOTH)
-
-
-def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
-    """Return the largest dimensionless wavenumber on a piece of a still level, up to λ."""
-    waves = (moving.wavenumber(squared_frequency) for moving in moving_parts(tank, level, piece))
-    return max(waves, default=0.0)
 
 
 def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float) -> Resolution:
@@ -261,9 +207,3 @@ def _contour_size(hull: Hull) -> float:
     """Largest element along a contour, in tank lengths; where it is curved, the mesh takes smaller ones."""
     left, right, low, high = hull.bounds
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
-
-
-def radians(degree: int, tolerance: float) -> float:
-    """Return the size kh of elements, in radians of a wave, for which the error (e kh/(4p))^{2p} keeps the
-    tolerance."""
-    return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))

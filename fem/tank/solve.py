@@ -17,6 +17,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.bodies.registry import toned_bodies
+from hydroelastic.fem.closed.discretization import MOST_MODES_TO_TONE
 from hydroelastic.fem.closed.tones import ElasticTone, FloatMode, elastic_tone, float_modes
 from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import excess
@@ -32,7 +33,6 @@ from hydroelastic.fem.tank.infinite_frequency import (
 )
 from hydroelastic.fem.tank.liquids import ANEW, Liquids, SharedLiquids, finest
 from hydroelastic.fem.tank.resolution import (
-    MOST_MODES_TO_TONE,
     Resolution,
     initial_resolution,
     sharpest_exponent,
